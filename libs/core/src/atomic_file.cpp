@@ -1,0 +1,83 @@
+#include "rgbd_graphslam/core/atomic_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace fs = std::filesystem;
+namespace {
+
+std::string temporaryName(const fs::path& path) {
+    const std::string name = ".tmp-" + std::to_string(getpid()) + "-" + path.filename().string();
+    return (path.parent_path() / name).string();
+}
+
+/** Some file systems report a full disk only here. */
+bool flushToDisk(const std::string& path) {
+    const int fd = open(path.c_str(), O_RDONLY);
+    if (fd < 0) return false;
+    const bool ok = fsync(fd) == 0;
+    return close(fd) == 0 && ok;
+}
+
+class RemovedUnlessKept {
+  public:
+    explicit RemovedUnlessKept(std::string path) : path_(std::move(path)) {}
+    ~RemovedUnlessKept() {
+        std::error_code ignored;
+        if (!path_.empty()) fs::remove(path_, ignored);
+    }
+    void keep() { path_.clear(); }
+
+  private:
+    std::string path_;
+};
+
+}  // namespace
+
+void writeAtomically(const std::string& path,
+                     const std::function<bool(const std::string&)>& write) {
+    const std::string temporary = temporaryName(path);
+    RemovedUnlessKept guard(temporary);
+    errno = 0;
+    if (!write(temporary) || !flushToDisk(temporary)) {
+        const std::string reason = errno ? std::string(" (") + std::strerror(errno) + ")" : "";
+        throw Error("cannot write '" + path + "'" + reason,
+                    "check free space and permissions of the folder");
+    }
+    std::error_code failure;
+    fs::rename(temporary, path, failure);
+    if (failure) throw Error("cannot rename to '" + path + "': " + failure.message());
+    guard.keep();
+}
+
+void writeTextAtomically(const std::string& path, const std::string& text) {
+    writeAtomically(path, [&](const std::string& temporary) {
+        std::ofstream out(temporary, std::ios::binary);
+        out << text;
+        out.close();
+        return out.good();
+    });
+}
+
+void makeWritableFolder(const std::string& path) {
+    std::error_code failure;
+    fs::create_directories(path, failure);
+    if (failure || !fs::is_directory(path)) {
+        throw Error("cannot make the folder '" + path + "'" +
+                        (failure ? ": " + failure.message() : ""),
+                    "choose another output folder");
+    }
+    if (access(path.c_str(), W_OK) != 0) {
+        throw Error("the folder '" + path + "' is not writable", "choose another output folder");
+    }
+}
+
+}  // namespace rgbd_graphslam

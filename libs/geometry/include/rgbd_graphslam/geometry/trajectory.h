@@ -1,0 +1,28 @@
+/** Poses over time. */
+#pragma once
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/geometry/se3.h"
+
+namespace rgbd_graphslam {
+
+struct StampedPose {
+    double stamp_s = 0;
+    SE3 T_world_cam;
+};
+
+/** In order of time. */
+using Trajectory = std::vector<StampedPose>;
+
+/** Reads `stamp tx ty tz qx qy qz qw` lines (seconds, metres, unit quaternion), the format of the
+ *  TUM RGB-D benchmark; commas and tabs separate as blanks do, `#` starts a comment. Rows with NaN
+ *  are left out as TUM's tools do.
+ *  \throws Error naming file and line for anything else, or when no pose is left */
+Trajectory readTumTrajectory(const std::string& path);
+
+/** The text of readTumTrajectory's format: stamps to the microsecond, metres and quaternions to
+ *  nine decimals. */
+std::string toTumText(const Trajectory& trajectory);
+
+}  // namespace rgbd_graphslam

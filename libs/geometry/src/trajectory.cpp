@@ -1,0 +1,65 @@
+#include "rgbd_graphslam/geometry/trajectory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <sstream>
+
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+[[noreturn]] void refuse(const std::string& path, int line, const std::string& why) {
+    throw Error(path + ":" + std::to_string(line) + ": " + why,
+                "each line must be 'stamp tx ty tz qx qy qz qw'");
+}
+
+std::vector<double> numbersOf(std::string text, const std::string& path, int line) {
+    std::replace_if(text.begin(), text.end(), [](char c) { return c == ',' || c == '\t' || c == '\r'; }, ' ');
+    std::istringstream words(text);
+    std::vector<double> numbers;
+    for (std::string word; words >> word;) {
+        char* end = nullptr;
+        numbers.push_back(std::strtod(word.c_str(), &end));
+        if (*end) refuse(path, line, "'" + word + "' is no number");
+    }
+    return numbers;
+}
+
+}  // namespace
+
+Trajectory readTumTrajectory(const std::string& path) {
+    std::ifstream in(path);
+    if (!in) throw Error("cannot read the trajectory '" + path + "'", "check the name");
+    Trajectory trajectory;
+    std::string text;
+    for (int line = 1; std::getline(in, text); ++line) {
+        const auto n = numbersOf(text.substr(0, text.find('#')), path, line);
+        if (n.empty()) continue;
+        if (n.size() != 8) refuse(path, line, std::to_string(n.size()) + " numbers");
+        if (!std::all_of(n.begin(), n.end(), [](double x) { return std::isfinite(x); })) continue;
+        const Eigen::Quaterniond q(n[7], n[4], n[5], n[6]);
+        if (q.norm() < 0.5) refuse(path, line, "the quaternion is not of unit length");
+        trajectory.push_back({n[0], SE3(q, {n[1], n[2], n[3]})});
+    }
+    if (trajectory.empty()) throw Error("no pose in '" + path + "'", "give a TUM trajectory");
+    std::stable_sort(trajectory.begin(), trajectory.end(),
+                     [](const auto& a, const auto& b) { return a.stamp_s < b.stamp_s; });
+    return trajectory;
+}
+
+std::string toTumText(const Trajectory& trajectory) {
+    std::string text = "# timestamp tx ty tz qx qy qz qw\n";
+    char line[256];
+    for (const auto& [stamp, T] : trajectory) {
+        const Eigen::Quaterniond q = T.quaternion();
+        std::snprintf(line, sizeof(line), "%.6f %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", stamp,
+                      T.t.x(), T.t.y(), T.t.z(), q.x(), q.y(), q.z(), q.w());
+        text += line;
+    }
+    return text;
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,49 @@
+/** Keyframe poses tied by relative measurements. */
+#pragma once
+#include <vector>
+
+#include "rgbd_graphslam/core/options.h"
+#include "rgbd_graphslam/geometry/se3.h"
+
+namespace rgbd_graphslam {
+
+enum class EdgeKind { Odometry, Covisibility, Loop };
+
+/** A measured relative pose. The residual is the tangent vector (m, rad) of
+ *  measured^-1 * predicted, and `information` is the inverse of its covariance in that order. */
+struct PoseEdge {
+    int from = 0, to = 0;
+    SE3 T_from_to;
+    Matrix6d information = Matrix6d::Identity();
+    EdgeKind kind = EdgeKind::Odometry;
+    /** Matches that agreed with the measurement. */
+    int inliers = 0;
+};
+
+struct PoseGraph {
+    /** Node i is keyframe i; T_world_cam. */
+    std::vector<SE3> nodes;
+    std::vector<PoseEdge> edges;
+};
+
+struct PoseGraphOptions : Options {
+    int max_iterations = 50;
+    double loop_kernel_sigmas = 3.0;
+    const char* section() const override { return "PoseGraphOptions"; }
+    const char* about() const override { return "Optimisation of the keyframe graph after a loop"; }
+    void describe(OptionVisitor& v) override;
+};
+
+struct PoseGraphSummary {
+    double initial_cost = 0, final_cost = 0;
+    int iterations = 0;
+    bool converged = false;
+};
+
+/** Minimises the edges' squared Mahalanobis residuals over all nodes but node `fixed`, with a robust
+ *  kernel on loop edges so that a few wrong loops are survived (Huber scaled to
+ *  `loop_kernel_sigmas`). Analytic Jacobians, single-threaded, deterministic.
+ *  \throws Error when an edge names a node that does not exist */
+PoseGraphSummary optimizePoseGraph(PoseGraph& graph, const PoseGraphOptions& options, int fixed = 0);
+
+}  // namespace rgbd_graphslam

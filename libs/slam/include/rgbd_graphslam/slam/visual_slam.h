@@ -1,0 +1,110 @@
+/** Visual SLAM on RGB-D frames: tracking, keyframes, local mapping, loops. Knows nothing of rawlogs,
+ *  files or windows. */
+#pragma once
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/features/frame.h"
+#include "rgbd_graphslam/geometry/camera.h"
+#include "rgbd_graphslam/geometry/rgbd_image.h"
+#include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/slam/pose_graph.h"
+#include "rgbd_graphslam/slam/slam_options.h"
+
+namespace rgbd_graphslam {
+
+/** How a frame's pose was obtained. */
+enum class FrameOrigin { Tracked, Recovered, Lost };
+
+/** "tracked", "recovered" or "lost". */
+const char* toString(FrameOrigin origin);
+
+/** The answer to one frame. */
+struct TrackedFrame {
+    double stamp_s = 0;
+    FrameOrigin origin = FrameOrigin::Lost;
+    SE3 T_world_cam;
+    /** Landmarks that agreed with the pose. */
+    int inliers = 0;
+    /** Keyframe this frame's pose is stored relative to. */
+    int reference_keyframe = 0;
+    SE3 T_reference_cam;
+    /** Set when the frame became a keyframe: its id, which counts from 0 without gaps. */
+    std::optional<int> keyframe;
+};
+
+/** One keyframe as others see it. */
+struct KeyframeView {
+    int id = 0;
+    double stamp_s = 0;
+    SE3 T_world_cam;
+    /** Dropped from the map because others see the same; its pose stays a node of the graph. */
+    bool culled = false;
+};
+
+struct LandmarkView {
+    Eigen::Vector3d position;  // world, m
+    int observations = 0;
+};
+
+/** Feed frames in order of time:
+ *  \code
+ *    VisualSlam slam(options, camera);
+ *    for (image : images) {
+ *        TrackedFrame tracked = slam.track(slam.prepare(image));
+ *        if (tracked.keyframe && !slam.findLoops(*tracked.keyframe).empty()) {
+ *            PoseGraph graph = slam.poseGraph();
+ *            optimizePoseGraph(graph, options.pose_graph);
+ *            slam.correct(graph.nodes);
+ *        }
+ *    }
+ *    slam.finish();
+ *  \endcode
+ *  The result depends on the frames and options only, never on timing or thread count. */
+class VisualSlam {
+  public:
+    VisualSlam(const SlamOptions& options, const Camera& camera);
+    ~VisualSlam();
+
+    /** Features of an image with their depth. Thread-safe: a pipeline calls it ahead of track(). */
+    Frame prepare(const RgbdImage& image) const;
+
+    /** Pose of the next frame. \throws Error when its stamp is not later than the last one's */
+    TrackedFrame track(Frame frame);
+
+    /** The edge from the keyframe before `keyframe` (> 0) to it, measured by what both see. */
+    PoseEdge odometryEdge(int keyframe) const;
+
+    /** Places seen before that `keyframe` sees again, geometrically verified; they join poseGraph().
+     */
+    std::vector<PoseEdge> findLoops(int keyframe);
+
+    /** Present poses of all keyframes and the edges between them: odometry, covisibility, loops. */
+    PoseGraph poseGraph() const;
+
+    /** Moves keyframes to new poses, landmarks with them, fuses what the loop brought together.
+     *  \param T_world_keyframe one pose a keyframe */
+    void correct(const std::vector<SE3>& T_world_keyframe);
+
+    /** Waits for the mapper and refines the whole map once more. */
+    void finish();
+
+    /** Every frame so far with its pose as the map knows it now. */
+    std::vector<TrackedFrame> frames() const;
+    std::vector<KeyframeView> keyframes() const;
+    std::vector<LandmarkView> landmarks() const;
+
+    struct StageTime {
+        std::string stage;
+        std::vector<double> cpu_ms, wall_ms;  // one a call
+    };
+    std::vector<StageTime> stageTimes() const;
+
+  private:
+    class Implementation;
+    std::unique_ptr<Implementation> impl_;
+};
+
+}  // namespace rgbd_graphslam

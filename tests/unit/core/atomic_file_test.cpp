@@ -1,0 +1,58 @@
+#include "rgbd_graphslam/core/atomic_file.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace {
+namespace fs = std::filesystem;
+
+class AtomicFile : public testing::Test {
+  protected:
+    void SetUp() override {
+        folder_ = fs::path(testing::TempDir()) / "rgbd-atomic-file";
+        fs::remove_all(folder_);
+        fs::create_directories(folder_);
+    }
+    std::string path() const { return (folder_ / "a.txt").string(); }
+    std::string content() const {
+        std::ostringstream text;
+        text << std::ifstream(path()).rdbuf();
+        return text.str();
+    }
+    fs::path folder_;
+};
+
+TEST_F(AtomicFile, failureKeepsTheOldFileAndLeavesNoTemporary) {
+    writeTextAtomically(path(), "old");
+    EXPECT_THROW(writeAtomically(path(), [](const std::string& temporary) {
+                     std::ofstream(temporary) << "half";
+                     return false;
+                 }),
+                 Error);
+    EXPECT_EQ(content(), "old");
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
+}
+
+TEST_F(AtomicFile, successReplacesTheOldFile) {
+    writeTextAtomically(path(), "old");
+    writeTextAtomically(path(), "new");
+    EXPECT_EQ(content(), "new");
+}
+
+TEST_F(AtomicFile, missingFolderIsNamed) {
+    try {
+        writeTextAtomically((folder_ / "none" / "a.txt").string(), "x");
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("none"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam

@@ -1,0 +1,80 @@
+#include "rgbd_graphslam/core/options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+struct SampleOptions : Options {
+    double size_m = 0.1;
+    int count = 7;
+    bool fast = true;
+    std::string mode = "near";
+    const char* section() const override { return "SampleOptions"; }
+    const char* about() const override { return "For the test"; }
+    void describe(OptionVisitor& v) override {
+        v.real("size_m", size_m, 0, 1, "m", "Size");
+        v.integer("count", count, 1, 9, "", "Count");
+        v.flag("fast", fast, "Speed");
+        v.choice("mode", mode, {"near", "far"}, "Mode");
+    }
+};
+
+std::string problemOf(const std::string& text) {
+    SampleOptions options;
+    try {
+        IniFile::fromText(text, "a.ini").load({&options});
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+TEST(IniFile, readsEveryKindOfValueAndComment) {
+    SampleOptions options;
+    IniFile::fromText("; note\n[SampleOptions]\nsize_m = 0.25 // [m]\ncount=3\nfast=false\nmode=far\n", "a.ini")
+        .load({&options});
+    EXPECT_EQ(options.size_m, 0.25);
+    EXPECT_EQ(options.count, 3);
+    EXPECT_FALSE(options.fast);
+    EXPECT_EQ(options.mode, "far");
+}
+
+TEST(IniFile, printedTextReadsBackToTheSameValues) {
+    SampleOptions written, read;
+    written.size_m = 1.0 / 3;
+    written.count = 2;
+    written.fast = false;
+    IniFile::fromText(toIniText({&written}), "b.ini").load({&read});
+    EXPECT_EQ(read.size_m, written.size_m);
+    EXPECT_EQ(read.count, written.count);
+    EXPECT_EQ(read.fast, written.fast);
+}
+
+TEST(IniFile, namesLineAndRemedyOfMistakes) {
+    using testing::AllOf;
+    using testing::HasSubstr;
+    EXPECT_THAT(problemOf("[SampleOptions]\ncuont = 3"), AllOf(HasSubstr("a.ini:2"), HasSubstr("'count'")));
+    EXPECT_THAT(problemOf("[SampleOption]\ncount = 3"), HasSubstr("SampleOptions"));
+    EXPECT_THAT(problemOf("[SampleOptions]\ncount = 30"), HasSubstr("from 1 to 9"));
+    EXPECT_THAT(problemOf("[SampleOptions]\nsize_m = nan"), HasSubstr("cannot be used"));
+    EXPECT_THAT(problemOf("[SampleOptions]\nsize_m = 0.5x"), HasSubstr("cannot be used"));
+    EXPECT_THAT(problemOf("[SampleOptions]\nmode = middle"), HasSubstr("near|far"));
+    EXPECT_THAT(problemOf("[SampleOptions]\njust words"), HasSubstr("a.ini:2"));
+    EXPECT_THAT(problemOf("[SampleOptions]\ncount=1\ncount=2"), HasSubstr("twice"));
+}
+
+TEST(IniFile, overrideWins) {
+    SampleOptions options;
+    auto ini = IniFile::fromText("[SampleOptions]\ncount = 3", "a.ini");
+    ini.override("SampleOptions.count=4");
+    ini.load({&options});
+    EXPECT_EQ(options.count, 4);
+    EXPECT_THROW(ini.override("count=4"), Error);
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
