@@ -71,9 +71,9 @@ void makeWritableFolder(const std::string& path) {
     std::error_code failure;
     fs::create_directories(path, failure);
     if (failure || !fs::is_directory(path)) {
-        throw Error("cannot make the folder '" + path + "'" +
-                        (failure ? ": " + failure.message() : ""),
-                    "choose another output folder");
+        throw Error(
+            "cannot make the folder '" + path + "'" + (failure ? ": " + failure.message() : ""),
+            "choose another output folder");
     }
     if (access(path.c_str(), W_OK) != 0) {
         throw Error("the folder '" + path + "' is not writable", "choose another output folder");

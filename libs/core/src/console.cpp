@@ -16,15 +16,25 @@ void sayIf(bool wanted, const char* prefix, const std::string& line) {
 
 }  // namespace
 
-void setVerbosity(Verbosity verbosity) { current_verbosity = verbosity; }
+void setVerbosity(Verbosity verbosity) {
+    current_verbosity = verbosity;
+}
 
-Verbosity verbosity() { return current_verbosity; }
+Verbosity verbosity() {
+    return current_verbosity;
+}
 
-void sayDetail(const std::string& line) { sayIf(verbosity() == Verbosity::Verbose, "", line); }
+void sayDetail(const std::string& line) {
+    sayIf(verbosity() == Verbosity::Verbose, "", line);
+}
 
-void sayInfo(const std::string& line) { sayIf(verbosity() != Verbosity::Quiet, "", line); }
+void sayInfo(const std::string& line) {
+    sayIf(verbosity() != Verbosity::Quiet, "", line);
+}
 
-void sayWarning(const std::string& line) { sayIf(true, "warning: ", line); }
+void sayWarning(const std::string& line) {
+    sayIf(true, "warning: ", line);
+}
 
 int runMain(const std::string& name, const std::function<int()>& body) {
     std::string problem;

@@ -97,7 +97,8 @@ class Loader : public OptionVisitor {
         char* end = nullptr;
         const double number = std::strtod(text->c_str(), &end);
         const bool complete = !text->empty() && *end == '\0' && std::isfinite(number);
-        if (complete && number >= min && number <= max && (!whole || number == std::floor(number))) {
+        if (complete && number >= min && number <= max &&
+            (!whole || number == std::floor(number))) {
             value = number;
             return;
         }
@@ -133,12 +134,14 @@ class Printer : public OptionVisitor {
               const char* help) override {
         std::ostringstream range;
         range << min << " to " << max;
-        line(key, shortest(value), std::string("[") + unit + (*unit ? ", " : "") + range.str() + "] " + help);
+        line(key, shortest(value),
+             std::string("[") + unit + (*unit ? ", " : "") + range.str() + "] " + help);
     }
     void integer(const char* key, int& value, int min, int max, const char* unit,
                  const char* help) override {
         const std::string range = std::to_string(min) + " to " + std::to_string(max);
-        line(key, std::to_string(value), std::string("[") + unit + (*unit ? ", " : "") + range + "] " + help);
+        line(key, std::to_string(value),
+             std::string("[") + unit + (*unit ? ", " : "") + range + "] " + help);
     }
     void flag(const char* key, bool& value, const char* help) override {
         line(key, value ? "true" : "false", std::string("[true|false] ") + help);
@@ -164,7 +167,9 @@ class Printer : public OptionVisitor {
     void line(const char* key, const std::string& value, const std::string& comment) {
         const std::string assignment = std::string(key) + " = " + value;
         const std::size_t column = 40;
-        out << assignment << std::string(std::max<std::size_t>(1, column - std::min(column, assignment.size())), ' ')
+        out << assignment
+            << std::string(std::max<std::size_t>(1, column - std::min(column, assignment.size())),
+                           ' ')
             << "// " << comment << "\n";
     }
 };
@@ -186,9 +191,10 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
 
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {
     if (known.empty()) return "remove it";
-    const auto best = std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
-        return editDistance(word, a) < editDistance(word, b);
-    });
+    const auto best =
+        std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
+            return editDistance(word, a) < editDistance(word, b);
+        });
     return "remove it, or did you mean '" + *best + "'?";
 }
 
@@ -248,7 +254,8 @@ void IniFile::load(const std::vector<Options*>& structs) const {
         }
     }
     for (const auto& [section, entries] : sections_) {
-        if (std::find(known_sections.begin(), known_sections.end(), section) != known_sections.end()) {
+        if (std::find(known_sections.begin(), known_sections.end(), section) !=
+            known_sections.end()) {
             continue;
         }
         throw Error(entries.begin()->second.origin + ": unknown section [" + section + "]",

@@ -37,7 +37,9 @@ Progress::Progress(std::string label, std::size_t total, std::string unit)
     finished_ = verbosity() == Verbosity::Quiet;
 }
 
-Progress::~Progress() { finish(); }
+Progress::~Progress() {
+    finish();
+}
 
 double Progress::elapsed() const {
     return std::chrono::duration<double>(Clock::now() - start_).count();

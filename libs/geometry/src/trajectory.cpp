@@ -17,7 +17,8 @@ namespace {
 }
 
 std::vector<double> numbersOf(std::string text, const std::string& path, int line) {
-    std::replace_if(text.begin(), text.end(), [](char c) { return c == ',' || c == '\t' || c == '\r'; }, ' ');
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return c == ',' || c == '\t' || c == '\r'; }, ' ');
     std::istringstream words(text);
     std::vector<double> numbers;
     for (std::string word; words >> word;) {

@@ -9,7 +9,8 @@ namespace rgbd_graphslam {
  *  moment leaves the old file, if any, untouched. The temporary name keeps the extension of `path`
  *  because many writers choose their format by it.
  *  \param write writes the whole file; returns false or throws on failure
- *  \throws Error naming `path` when writing, flushing or renaming fails; the temporary is removed */
+ *  \throws Error naming `path` when writing, flushing or renaming fails; the temporary is removed
+ */
 void writeAtomically(const std::string& path,
                      const std::function<bool(const std::string& temporary_path)>& write);
 

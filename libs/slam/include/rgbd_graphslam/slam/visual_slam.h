@@ -1,5 +1,5 @@
-/** Visual SLAM on RGB-D frames: tracking, keyframes, local mapping, loops. Knows nothing of rawlogs,
- *  files or windows. */
+/** Visual SLAM on RGB-D frames: tracking, keyframes, local mapping, loops. Knows nothing of
+ * rawlogs, files or windows. */
 #pragma once
 #include <memory>
 #include <optional>
@@ -77,7 +77,8 @@ class VisualSlam {
     /** The edge from the keyframe before `keyframe` (> 0) to it, measured by what both see. */
     PoseEdge odometryEdge(int keyframe) const;
 
-    /** Places seen before that `keyframe` sees again, geometrically verified; they join poseGraph().
+    /** Places seen before that `keyframe` sees again, geometrically verified; they join
+     * poseGraph().
      */
     std::vector<PoseEdge> findLoops(int keyframe);
 

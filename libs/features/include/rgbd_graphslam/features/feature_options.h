@@ -1,0 +1,23 @@
+/** Settings of keypoint extraction. */
+#pragma once
+#include "rgbd_graphslam/core/options.h"
+
+namespace rgbd_graphslam {
+
+struct FeatureOptions : Options {
+    int count = 1000;
+    int levels = 6;
+    double scale_factor = 1.25;
+    int fast_threshold = 20;
+    int fast_threshold_min = 7;
+    int cell_px = 32;
+    double depth_min_m = 0.2;
+    double depth_max_m = 10.0;
+    double depth_edge_ratio = 0.04;
+
+    const char* section() const override { return "FeatureOptions"; }
+    const char* about() const override { return "Keypoints, descriptors and their depth"; }
+    void describe(OptionVisitor& v) override;
+};
+
+}  // namespace rgbd_graphslam

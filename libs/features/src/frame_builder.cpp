@@ -1,0 +1,84 @@
+#include "rgbd_graphslam/features/frame_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr int fewest_readings = 3;
+
+std::string sizeText(int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+}
+
+void checkImage(const cv::Mat& image, int type, const char* what, const Camera& camera,
+                double stamp) {
+    if (image.type() == type && image.cols == camera.width && image.rows == camera.height) return;
+    throw Error("frame at " + std::to_string(stamp) + " s: the " + what + " image is " +
+                    sizeText(image.cols, image.rows) + " of OpenCV type " +
+                    std::to_string(image.type()) + ", the camera has " +
+                    sizeText(camera.width, camera.height),
+                "import the sequence again with the right camera");
+}
+
+}  // namespace
+
+float foregroundDepth(const cv::Mat& depth, double depth_unit_m, float u, float v,
+                      const FeatureOptions& options) {
+    const int x = static_cast<int>(std::lround(u)), y = static_cast<int>(std::lround(v));
+    const int x0 = std::max(x - 1, 0), x1 = std::min(x + 1, depth.cols - 1);
+    const int y0 = std::max(y - 1, 0), y1 = std::min(y + 1, depth.rows - 1);
+    int nearest = 65536;
+    for (int j = y0; j <= y1; ++j) {
+        const auto* row = depth.ptr<std::uint16_t>(j);
+        for (int i = x0; i <= x1; ++i) {
+            if (row[i] && row[i] < nearest) nearest = row[i];
+        }
+    }
+    const double farthest = nearest * (1 + options.depth_edge_ratio);
+    int readings = 0, sum = 0;
+    for (int j = y0; j <= y1; ++j) {
+        const auto* row = depth.ptr<std::uint16_t>(j);
+        for (int i = x0; i <= x1; ++i) {
+            if (!row[i] || row[i] > farthest) continue;
+            ++readings;
+            sum += row[i];
+        }
+    }
+    if (readings < fewest_readings) return 0;
+    const double z = depth_unit_m * sum / readings;
+    return z >= options.depth_min_m && z <= options.depth_max_m ? static_cast<float>(z) : 0;
+}
+
+FrameBuilder::FrameBuilder(const FeatureOptions& options, const Camera& camera)
+    : options_(options), camera_(camera), extractor_(options) {}
+
+Frame FrameBuilder::build(const RgbdImage& image) const {
+    checkImage(image.grey, CV_8UC1, "grey", camera_, image.stamp_s);
+    checkImage(image.depth, CV_16UC1, "depth", camera_, image.stamp_s);
+    Frame frame;
+    frame.stamp_s = image.stamp_s;
+    OrbFeatures features = extractor_.extract(image.grey);
+    frame.descriptors = std::move(features.descriptors);
+    frame.keypoints.reserve(features.corners.size());
+    const bool distorted = camera_.hasDistortion();
+    for (const Corner& corner : features.corners) {
+        Keypoint keypoint{corner.u, corner.v, 0, corner.angle_rad, corner.octave};
+        keypoint.depth_m =
+            foregroundDepth(image.depth, image.depth_unit_m, corner.u, corner.v, options_);
+        if (distorted) {
+            const Eigen::Vector2d pixel = camera_.undistort({corner.u, corner.v});
+            keypoint.u = static_cast<float>(pixel.x());
+            keypoint.v = static_cast<float>(pixel.y());
+        }
+        frame.keypoints.push_back(keypoint);
+    }
+    frame.grid = KeypointGrid(frame.keypoints, camera_.width, camera_.height);
+    return frame;
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,261 @@
+#include "rgbd_graphslam/features/orb_extractor.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <opencv2/features2d.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "orb_pattern.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr int border_px = orb_patch_radius + 2;
+constexpr int fast_radius = 3;
+constexpr float pi = 3.14159265f;
+
+/** A pyramid level and its smoothed copy. All levels have the row step of the first, so that one
+ *  table of pixel offsets serves every level. */
+struct Level {
+    cv::Mat sharp, smooth;
+};
+
+struct LevelCorner {
+    int x, y;
+    int response;
+};
+
+/** Buffers that a thread keeps from image to image. */
+struct Scratch {
+    cv::Mat sharp_buffer, smooth_buffer;
+    std::vector<Level> levels;
+    std::size_t offsets_step = 0;
+    std::vector<int> offsets;
+    std::vector<cv::KeyPoint> fast_corners;
+    std::vector<std::vector<LevelCorner>> cells;
+};
+
+/** Half width of the moment disc in each row. */
+std::array<int, orb_patch_radius + 1> discHalfWidths() {
+    std::array<int, orb_patch_radius + 1> half{};
+    for (int y = 0; y <= orb_patch_radius; ++y) {
+        half[y] = static_cast<int>(std::sqrt(orb_patch_radius * orb_patch_radius - y * y + 0.5));
+    }
+    return half;
+}
+
+void buildPyramid(const cv::Mat& grey, const std::vector<float>& scale, Scratch& scratch) {
+    const int needed = 2 * border_px + 8;
+    scratch.levels.resize(scale.size());
+    const int rows = static_cast<int>(scale.size()) * grey.rows;
+    scratch.sharp_buffer.create(rows, grey.cols, CV_8UC1);
+    scratch.smooth_buffer.create(rows, grey.cols, CV_8UC1);
+    for (std::size_t l = 0; l < scale.size(); ++l) {
+        const cv::Size size(static_cast<int>(std::lround(grey.cols / scale[l])),
+                            static_cast<int>(std::lround(grey.rows / scale[l])));
+        if (size.width < needed || size.height < needed) {
+            scratch.levels.resize(l);
+            return;
+        }
+        const cv::Rect place(0, static_cast<int>(l) * grey.rows, size.width, size.height);
+        Level& level = scratch.levels[l];
+        level.sharp = scratch.sharp_buffer(place);
+        level.smooth = scratch.smooth_buffer(place);
+        if (l == 0) {
+            grey.copyTo(level.sharp);
+        } else {
+            cv::resize(scratch.levels[l - 1].sharp, level.sharp, size, 0, 0, cv::INTER_LINEAR);
+        }
+        cv::GaussianBlur(level.sharp, level.smooth, cv::Size(7, 7), 2, 2, cv::BORDER_REFLECT_101);
+    }
+}
+
+void updateOffsets(Scratch& scratch) {
+    const std::size_t step = scratch.smooth_buffer.step;
+    if (scratch.offsets_step == step) return;
+    scratch.offsets_step = step;
+    scratch.offsets.clear();
+    for (const auto& orientation : orbPattern()) {
+        for (const OrbPoint p : orientation) {
+            scratch.offsets.push_back(p.y * static_cast<int>(step) + p.x);
+        }
+    }
+}
+
+void detectFast(const cv::Mat& image, const cv::Rect& area, int threshold, Scratch& scratch,
+                std::vector<LevelCorner>& corners) {
+    const cv::Rect with_circle(area.x - fast_radius, area.y - fast_radius,
+                               area.width + 2 * fast_radius, area.height + 2 * fast_radius);
+    scratch.fast_corners.clear();
+    cv::FAST(image(with_circle), scratch.fast_corners, threshold, true);
+    for (const cv::KeyPoint& k : scratch.fast_corners) {
+        corners.push_back({static_cast<int>(k.pt.x) + with_circle.x,
+                           static_cast<int>(k.pt.y) + with_circle.y, static_cast<int>(k.response)});
+    }
+}
+
+/** Strongest first; the place decides between equals. */
+bool stronger(const LevelCorner& a, const LevelCorner& b) {
+    if (a.response != b.response) return a.response > b.response;
+    return a.y != b.y ? a.y < b.y : a.x < b.x;
+}
+
+/** Corners of a level sorted into cells; cells where the first threshold finds nothing are searched
+ *  again with the lower one. \return number of cells in use */
+std::size_t detectInCells(const cv::Mat& image, const FeatureOptions& options, Scratch& scratch) {
+    const cv::Rect inner(border_px, border_px, image.cols - 2 * border_px,
+                         image.rows - 2 * border_px);
+    const int columns = std::max(1, inner.width / options.cell_px);
+    const int rows = std::max(1, inner.height / options.cell_px);
+    const std::size_t used = static_cast<std::size_t>(columns) * rows;
+    if (scratch.cells.size() < used) scratch.cells.resize(used);
+    for (std::size_t c = 0; c < used; ++c) scratch.cells[c].clear();
+    std::vector<LevelCorner> corners;
+    detectFast(image, inner, options.fast_threshold, scratch, corners);
+    for (const LevelCorner& corner : corners) {
+        const int column = (corner.x - inner.x) * columns / inner.width;
+        const int row = (corner.y - inner.y) * rows / inner.height;
+        scratch.cells[row * columns + column].push_back(corner);
+    }
+    for (std::size_t c = 0; c < used; ++c) {
+        if (scratch.cells[c].empty()) {
+            const int column = static_cast<int>(c) % columns, row = static_cast<int>(c) / columns;
+            const int x0 = (column * inner.width + columns - 1) / columns;
+            const int x1 = ((column + 1) * inner.width + columns - 1) / columns;
+            const int y0 = (row * inner.height + rows - 1) / rows;
+            const int y1 = ((row + 1) * inner.height + rows - 1) / rows;
+            detectFast(image, {inner.x + x0, inner.y + y0, x1 - x0, y1 - y0},
+                       std::min(options.fast_threshold_min, options.fast_threshold), scratch,
+                       scratch.cells[c]);
+        }
+        std::sort(scratch.cells[c].begin(), scratch.cells[c].end(), stronger);
+    }
+    return used;
+}
+
+/** Takes the best corner of every cell, then the second best, and so on: even spread first,
+ * strength within what is left over. */
+std::vector<LevelCorner> selectEvenly(const std::vector<std::vector<LevelCorner>>& cells,
+                                      std::size_t used, std::size_t quota) {
+    std::vector<LevelCorner> selected;
+    std::vector<LevelCorner> round;
+    for (std::size_t rank = 0; selected.size() < quota; ++rank) {
+        round.clear();
+        for (std::size_t c = 0; c < used; ++c) {
+            if (rank < cells[c].size()) round.push_back(cells[c][rank]);
+        }
+        if (round.empty()) break;
+        if (selected.size() + round.size() > quota) {
+            std::sort(round.begin(), round.end(), stronger);
+            round.resize(quota - selected.size());
+        }
+        selected.insert(selected.end(), round.begin(), round.end());
+    }
+    return selected;
+}
+
+/** Direction from the corner to the centroid of grey values (Rosin, CVIU 1999). */
+float orientation(const cv::Mat& image, int x, int y) {
+    static const auto half_width = discHalfWidths();
+    const int step = static_cast<int>(image.step);
+    const std::uint8_t* centre = image.ptr<std::uint8_t>(y) + x;
+    int moment_x = 0, moment_y = 0;
+    for (int i = -orb_patch_radius; i <= orb_patch_radius; ++i) moment_x += i * centre[i];
+    for (int j = 1; j <= orb_patch_radius; ++j) {
+        const std::uint8_t* below = centre + j * step;
+        const std::uint8_t* above = centre - j * step;
+        int difference = 0;
+        for (int i = -half_width[j]; i <= half_width[j]; ++i) {
+            moment_x += i * (below[i] + above[i]);
+            difference += below[i] - above[i];
+        }
+        moment_y += j * difference;
+    }
+    return std::atan2(static_cast<float>(moment_y), static_cast<float>(moment_x));
+}
+
+/** Where the structure tensor of the 5x5 neighbourhood places the corner (Foerstner and Guelch,
+ *  1987), as an offset from its pixel; none when that leaves the pixel. */
+cv::Point2f subPixelOffset(const cv::Mat& image, int x, int y) {
+    constexpr int radius = 2;
+    const int step = static_cast<int>(image.step);
+    float xx = 0, xy = 0, yy = 0, bx = 0, by = 0;
+    for (int j = -radius; j <= radius; ++j) {
+        const std::uint8_t* row = image.ptr<std::uint8_t>(y + j) + x;
+        for (int i = -radius; i <= radius; ++i) {
+            const float gx = static_cast<float>(row[i + 1] - row[i - 1]);
+            const float gy = static_cast<float>(row[i + step] - row[i - step]);
+            xx += gx * gx;
+            xy += gx * gy;
+            yy += gy * gy;
+            bx += gx * gx * i + gx * gy * j;
+            by += gx * gy * i + gy * gy * j;
+        }
+    }
+    const float determinant = xx * yy - xy * xy;
+    const float trace = xx + yy;
+    if (determinant < 0.02f * trace * trace) return {0, 0};
+    const cv::Point2f offset((yy * bx - xy * by) / determinant, (xx * by - xy * bx) / determinant);
+    return std::abs(offset.x) <= 1.5f && std::abs(offset.y) <= 1.5f ? offset : cv::Point2f(0, 0);
+}
+
+Descriptor describeCorner(const std::uint8_t* centre, const int* offsets) {
+    Descriptor descriptor{};
+    for (int word = 0; word < 4; ++word) {
+        std::uint64_t bits = 0;
+        for (int i = 0; i < 64; ++i, offsets += 2) {
+            bits |= static_cast<std::uint64_t>(centre[offsets[0]] < centre[offsets[1]]) << i;
+        }
+        descriptor[word] = bits;
+    }
+    return descriptor;
+}
+
+int discreteOrientation(float angle) {
+    const int index = static_cast<int>(std::lround(angle * orb_orientations / (2 * pi)));
+    return (index + orb_orientations) % orb_orientations;
+}
+
+}  // namespace
+
+OrbExtractor::OrbExtractor(const FeatureOptions& options) : options_(options) {
+    double total = 0;
+    for (int l = 0; l < options.levels; ++l) {
+        scale_.push_back(static_cast<float>(std::pow(options.scale_factor, l)));
+        total += 1 / scale_.back();
+    }
+    for (const float scale : scale_) {
+        quota_.push_back(static_cast<int>(std::lround(options.count / (scale * total))));
+    }
+}
+
+OrbExtractor::~OrbExtractor() = default;
+
+OrbFeatures OrbExtractor::extract(const cv::Mat& grey) const {
+    static thread_local Scratch scratch;
+    buildPyramid(grey, scale_, scratch);
+    updateOffsets(scratch);
+    OrbFeatures features;
+    for (std::size_t l = 0; l < scratch.levels.size(); ++l) {
+        const Level& level = scratch.levels[l];
+        const std::size_t used = detectInCells(level.sharp, options_, scratch);
+        // The true ratio: sizes are whole pixels, so it differs from the nominal one.
+        const float scale_x = static_cast<float>(grey.cols) / level.sharp.cols;
+        const float scale_y = static_cast<float>(grey.rows) / level.sharp.rows;
+        for (const LevelCorner& corner : selectEvenly(scratch.cells, used, quota_[l])) {
+            const float angle = orientation(level.sharp, corner.x, corner.y);
+            const cv::Point2f offset = subPixelOffset(level.sharp, corner.x, corner.y);
+            // Pixel centres are whole numbers on every level, so scaling is about the image corner.
+            features.corners.push_back({(corner.x + offset.x + 0.5f) * scale_x - 0.5f,
+                                        (corner.y + offset.y + 0.5f) * scale_y - 0.5f, angle,
+                                        static_cast<int>(l)});
+            const int* offsets = &scratch.offsets[discreteOrientation(angle) * 2 * orb_bits];
+            features.descriptors.push_back(
+                describeCorner(level.smooth.ptr<std::uint8_t>(corner.y) + corner.x, offsets));
+        }
+    }
+    return features;
+}
+
+}  // namespace rgbd_graphslam

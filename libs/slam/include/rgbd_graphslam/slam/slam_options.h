@@ -1,0 +1,92 @@
+/** Settings of tracking, mapping and loop closing. */
+#pragma once
+#include <vector>
+
+#include "rgbd_graphslam/core/options.h"
+#include "rgbd_graphslam/features/feature_options.h"
+#include "rgbd_graphslam/geometry/depth_noise.h"
+#include "rgbd_graphslam/slam/pose_graph.h"
+
+namespace rgbd_graphslam {
+
+struct SensorOptions : Options {
+    double keypoint_sigma_px = 0.8;
+    DepthNoise depth_noise;
+
+    const char* section() const override { return "SensorOptions"; }
+    const char* about() const override { return "How exact the camera is"; }
+    void describe(OptionVisitor& v) override;
+};
+
+struct TrackerOptions : Options {
+    double motion_window_px = 15;
+    double wide_window_px = 40;
+    double map_window_px = 5;
+    int max_hamming = 64;
+    int min_inliers = 25;
+    int max_local_keyframes = 20;
+
+    const char* section() const override { return "TrackerOptions"; }
+    const char* about() const override { return "Pose of every frame against the local map"; }
+    void describe(OptionVisitor& v) override;
+};
+
+struct KeyframeOptions : Options {
+    double max_translation_ratio = 0.10;
+    double max_rotation_rad = 0.20;
+    double min_tracked_share = 0.75;
+    double min_translation_ratio = 0.015;
+    double min_rotation_rad = 0.03;
+    int min_interval_frames = 2;
+    double cull_share = 0.9;
+
+    const char* section() const override { return "KeyframeOptions"; }
+    const char* about() const override {
+        return "When a frame becomes a keyframe, and when one goes";
+    }
+    void describe(OptionVisitor& v) override;
+};
+
+struct MapperOptions : Options {
+    int window_keyframes = 10;
+    int max_fixed_keyframes = 10;
+    int iterations = 6;
+    int hand_over_frames = 3;
+    bool local_adjustment = true;
+    bool final_adjustment = true;
+
+    const char* section() const override { return "MapperOptions"; }
+    const char* about() const override { return "Landmarks and local bundle adjustment"; }
+    void describe(OptionVisitor& v) override;
+};
+
+struct LoopOptions : Options {
+    bool enabled = true;
+    int min_keyframe_gap = 20;
+    int candidates = 3;
+    int min_inliers = 40;
+    int ransac_iterations = 300;
+    int bits_hamming = 40;
+
+    const char* section() const override { return "LoopOptions"; }
+    const char* about() const override { return "Recognising places seen before"; }
+    void describe(OptionVisitor& v) override;
+};
+
+/** Everything VisualSlam can be told. */
+struct SlamOptions {
+    FeatureOptions features;
+    SensorOptions sensor;
+    TrackerOptions tracker;
+    KeyframeOptions keyframes;
+    MapperOptions mapper;
+    LoopOptions loops;
+    PoseGraphOptions pose_graph;
+
+    /** For IniFile::load and toIniText. */
+    std::vector<Options*> all() {
+        return {&features, &sensor, &tracker, &keyframes, &mapper, &loops, &pose_graph};
+    }
+};
+
+}  // namespace rgbd_graphslam

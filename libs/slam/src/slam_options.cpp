@@ -1,0 +1,68 @@
+#include "rgbd_graphslam/slam/slam_options.h"
+
+namespace rgbd_graphslam {
+
+void SensorOptions::describe(OptionVisitor& v) {
+    v.real("keypoint_sigma_px", keypoint_sigma_px, 0.05, 10, "px",
+           "Error of a keypoint's place on pyramid level 0");
+    v.real("depth_sigma_a", depth_noise.a, 0, 1, "m", "Depth error a + b (z - c)^2: constant part");
+    v.real("depth_sigma_b", depth_noise.b, 0, 1, "1/m", "Depth error: growth with distance");
+    v.real("depth_sigma_c", depth_noise.c, 0, 10, "m", "Depth error: distance of least error");
+}
+
+void TrackerOptions::describe(OptionVisitor& v) {
+    v.real("motion_window_px", motion_window_px, 1, 200, "px",
+           "Search radius around the place predicted from the last frame");
+    v.real("wide_window_px", wide_window_px, 1, 400, "px", "The same before tracking gives up");
+    v.real("map_window_px", map_window_px, 1, 100, "px",
+           "Search radius for local landmarks once the pose is nearly known");
+    v.integer("max_hamming", max_hamming, 1, 256, "bits", "Farthest that descriptors may be apart");
+    v.integer("min_inliers", min_inliers, 6, 1000, "landmarks", "Fewest that make a pose believed");
+    v.integer("max_local_keyframes", max_local_keyframes, 1, 200, "",
+              "Keyframes whose landmarks are searched for");
+}
+
+void KeyframeOptions::describe(OptionVisitor& v) {
+    v.real("max_translation_ratio", max_translation_ratio, 0.001, 10, "",
+           "Motion since the last keyframe, as a share of the median depth, that makes a new one");
+    v.real("max_rotation_rad", max_rotation_rad, 0.001, 3.2, "rad",
+           "Rotation since the last keyframe that makes a new one");
+    v.real("min_tracked_share", min_tracked_share, 0.01, 1, "",
+           "Share of the last keyframe's landmarks below which a new one is made");
+    v.real("min_translation_ratio", min_translation_ratio, 0, 10, "",
+           "Less motion than this, as a share of the median depth, makes no keyframe");
+    v.real("min_rotation_rad", min_rotation_rad, 0, 3.2, "rad",
+           "Less rotation than this makes no keyframe unless the other limit is reached");
+    v.integer("min_interval_frames", min_interval_frames, 1, 1000, "frames",
+              "Between two keyframes at least");
+    v.real("cull_share", cull_share, 0.1, 1.01, "",
+           "Keyframes with this share of landmarks seen by three others go; above 1 none goes");
+}
+
+void MapperOptions::describe(OptionVisitor& v) {
+    v.integer("window_keyframes", window_keyframes, 1, 100, "",
+              "Keyframes that one adjustment moves");
+    v.integer("max_fixed_keyframes", max_fixed_keyframes, 0, 100, "",
+              "Keyframes that hold an adjustment in place");
+    v.integer("iterations", iterations, 1, 100, "", "Steps of one adjustment");
+    v.integer(
+        "hand_over_frames", hand_over_frames, 1, 100, "frames",
+        "After a keyframe, when the adjusted map reaches the tracker (fixed, so that the result "
+        "does not depend on timing)");
+    v.flag("local_adjustment", local_adjustment, "Bundle adjustment around each new keyframe");
+    v.flag("final_adjustment", final_adjustment, "Bundle adjustment of everything at the end");
+}
+
+void LoopOptions::describe(OptionVisitor& v) {
+    v.flag("enabled", enabled, "Look for places seen before");
+    v.integer("min_keyframe_gap", min_keyframe_gap, 2, 10000, "keyframes",
+              "Nearer keyframes in time are no loop");
+    v.integer("candidates", candidates, 1, 50, "", "Places verified for each keyframe");
+    v.integer("min_inliers", min_inliers, 6, 1000, "landmarks", "Fewest that confirm a loop");
+    v.integer("ransac_iterations", ransac_iterations, 10, 100000, "",
+              "Most tries for a loop's motion");
+    v.integer("bits_hamming", bits_hamming, 1, 128, "bits",
+              "Farthest that place descriptors are apart");
+}
+
+}  // namespace rgbd_graphslam
