@@ -1,0 +1,53 @@
+/** Calibrations: of the TUM benchmark's cameras, and in files. */
+#pragma once
+#include <optional>
+#include <string>
+
+#include "rgbd_graphslam/geometry/camera.h"
+#include "rgbd_graphslam/geometry/se3.h"
+
+namespace rgbd_graphslam {
+
+/** Everything about a camera that its images do not tell. */
+struct CameraSetup {
+    /** "fr1", "fr2", "fr3", "ros" or the file it came from. */
+    std::string name = "ros";
+    Camera camera;
+    /** Depth of one unit is depth_scale / depth_units metres. */
+    double depth_units = 5000;
+    double depth_scale = 1;
+    /** Where the sensor (MRPT's axes: x forward, y left, z up) sits on the robot's base; identity
+     *  for a camera held by hand. */
+    SE3 T_base_sensor;
+    /** Axes of accelerometer and gyroscope in the sensor's; see kinectImuAxes. */
+    SE3 T_sensor_imu;
+
+    CameraSetup();
+    double depthUnitInMetres() const { return depth_scale / depth_units; }
+};
+
+/** Axes of the Kinect's accelerometer (x left, y up, z forward) in MRPT's sensor frame. Not stated
+ *  by the TUM benchmark; found by fitting fr1/xyz's accelerometer to gravity in its ground truth,
+ *  which gives these axes within 5 degrees. */
+SE3 kinectImuAxes();
+
+/** A calibration by name: the TUM benchmark's "fr1", "fr2", "fr3" (from its page on file formats)
+ *  or "ros", the default of the Kinect's ROS driver.
+ *  \return nothing for another name */
+std::optional<CameraSetup> cameraByName(const std::string& name);
+
+/** The calibration that a TUM sequence's folder name speaks of, e.g. "freiburg2" or "fr2". */
+std::optional<CameraSetup> cameraByFolderName(const std::string& folder);
+
+/** Reads section `[CAMERA_PARAMS]` as `mrpt::img::TCamera::loadFromConfigFile` does: resolution,
+ * fx, fy, cx, cy (px), distortion_model, dist. `dist` without `distortion_model` counts as
+ * plumb_bob (MRPT would ignore it silently). Further keys, all optional: depth_units (a metre),
+ * depth_scale, sensor_pose and imu_pose as `[x y z yaw pitch roll]` in m and degrees. \throws Error
+ * naming file and key for a missing or unknown key, a value out of range, or a lens model other
+ * than plumb_bob with up to 5 coefficients */
+CameraSetup readCameraFile(const std::string& path);
+
+/** The text that readCameraFile reads back to the same numbers. */
+std::string toIniText(const CameraSetup& setup);
+
+}  // namespace rgbd_graphslam

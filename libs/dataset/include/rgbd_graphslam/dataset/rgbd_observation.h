@@ -1,0 +1,40 @@
+/** RGB-D frames as MRPT observations. */
+#pragma once
+#include <mrpt/obs/CObservation3DRangeScan.h>
+
+#include "rgbd_graphslam/dataset/camera_file.h"
+#include "rgbd_graphslam/dataset/rawlog_info.h"
+#include "rgbd_graphslam/geometry/rgbd_image.h"
+
+namespace rgbd_graphslam {
+
+/** Sensor labels of what this project writes. */
+inline constexpr const char* rgbd_label = "RGBD";
+inline constexpr const char* imu_label = "IMU";
+inline constexpr const char* odometry_label = "ODOMETRY";
+inline constexpr const char* ground_truth_label = "GROUND_TRUTH";
+
+/** The frame in our terms. Pixels are shared with the observation, which `owner` keeps alive;
+ * images stored outside the rawlog are loaded; the grey image is made here. \throws Error naming
+ * the stamp when colour or depth is absent, unreadable or of different size, or when ranges are not
+ * depths along the optical axis */
+RgbdImage toRgbdImage(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
+
+/** Calibration of the colour camera. */
+Camera cameraOf(const mrpt::obs::CObservation3DRangeScan& observation);
+
+/** Pose of the colour camera's optical frame on the robot's base. */
+SE3 cameraOnRobot(const mrpt::obs::CObservation3DRangeScan& observation);
+
+/** An observation with calibration and pose, without images. \param stamp_s of the colour image */
+mrpt::obs::CObservation3DRangeScan::Ptr makeRgbdObservation(const CameraSetup& setup,
+                                                            double stamp_s);
+
+/** Copies depth into an observation.
+ *  \param depth CV_16UC1 in units of the setup the observation was made with */
+void setDepth(mrpt::obs::CObservation3DRangeScan& observation, const cv::Mat& depth);
+
+/** Shares a colour image (CV_8UC3, BGR) with an observation. */
+void setColor(mrpt::obs::CObservation3DRangeScan& observation, const cv::Mat& color);
+
+}  // namespace rgbd_graphslam

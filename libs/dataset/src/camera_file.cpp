@@ -1,0 +1,227 @@
+#include "rgbd_graphslam/dataset/camera_file.h"
+
+#include <mrpt/config/CConfigFileMemory.h>
+#include <mrpt/math/TPose3D.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <vector>
+
+#include "number_text.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/mrpt_conversions.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr const char* section = "CAMERA_PARAMS";
+const std::vector<std::string> mrpt_keys = {
+    "resolution",       "fx",           "fy",         "cx", "cy", "dist",
+    "distortion_model", "focal_length", "camera_name"};
+const std::vector<std::string> own_keys = {"depth_units", "depth_scale", "sensor_pose", "imu_pose"};
+
+bool contains(const std::vector<std::string>& list, const std::string& item) {
+    return std::find(list.begin(), list.end(), item) != list.end();
+}
+
+/** One camera file being read. */
+class CameraFile {
+  public:
+    explicit CameraFile(const std::string& path) : path_(path) {
+        std::ifstream in(path);
+        std::stringstream text;
+        if (!in || !(text << in.rdbuf())) {
+            throw Error("cannot read the camera file '" + path + "'",
+                        "give fr1, fr2, fr3, ros or an ini file");
+        }
+        config_.setContent(text.str());
+        if (!config_.sectionExists(section))
+            refuse("has no section [" + std::string(section) + "]");
+        checkKeys();
+    }
+
+    Camera camera() {
+        const bool bent = has("dist") && !has("distortion_model");
+        if (bent) config_.write(section, "distortion_model", std::string("plumb_bob"));
+        mrpt::img::TCamera camera;
+        camera.loadFromConfigFile(section, config_);
+        checkLens(camera);
+        return toCamera(camera);
+    }
+
+    double positive(const std::string& key, double otherwise) const {
+        if (!has(key)) return otherwise;
+        const auto numbers = numbersOf(key);
+        if (numbers.size() != 1 || numbers[0] <= 0) refuse(key + " must be one positive number");
+        return numbers[0];
+    }
+
+    SE3 pose(const std::string& key, const SE3& otherwise) const {
+        if (!has(key)) return otherwise;
+        const auto n = numbersOf(key);
+        if (n.size() != 6) refuse(key + " must be [x y z yaw pitch roll] in m and degrees");
+        const double rad = M_PI / 180;
+        return toSE3(mrpt::poses::CPose3D(n[0], n[1], n[2], n[3] * rad, n[4] * rad, n[5] * rad));
+    }
+
+  private:
+    [[noreturn]] void refuse(const std::string& why) const {
+        throw Error("camera file '" + path_ + "': " + why, "see ini/camera_fr1.ini for the form");
+    }
+
+    bool has(const std::string& key) const { return config_.keyExists(section, key); }
+
+    std::vector<double> numbersOf(const std::string& key) const {
+        std::string text = config_.read_string(section, key, "");
+        std::replace_if(
+            text.begin(), text.end(), [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
+        std::istringstream words(text);
+        std::vector<double> numbers;
+        for (std::string word; words >> word;) {
+            char* end = nullptr;
+            numbers.push_back(std::strtod(word.c_str(), &end));
+            if (*end || !std::isfinite(numbers.back()))
+                refuse(key + ": '" + word + "' is no number");
+        }
+        return numbers;
+    }
+
+    void checkKeys() const {
+        std::vector<std::string> keys;
+        config_.getAllKeys(section, keys);
+        for (const auto& key : keys) {
+            if (!contains(mrpt_keys, key) && !contains(own_keys, key)) {
+                refuse("unknown key '" + key + "'");
+            }
+        }
+        for (const std::string key : {"fx", "fy", "cx", "cy"}) {
+            if (!has(key)) refuse("the key '" + key + "' is missing");
+            if (numbersOf(key).size() != 1) refuse(key + " must be one number");
+        }
+        if (!has("resolution") || numbersOf("resolution").size() != 2) {
+            refuse("resolution must be [columns rows]");
+        }
+        const auto coefficients = numbersOf("dist").size();
+        if (has("dist") && coefficients != 4 && coefficients != 5 && coefficients != 8) {
+            refuse("dist must be [k1 k2 p1 p2] or [k1 k2 p1 p2 k3]");
+        }
+    }
+
+    void checkLens(const mrpt::img::TCamera& camera) const {
+        if (camera.fx() <= 0 || camera.fy() <= 0) refuse("fx and fy must be positive");
+        if (camera.ncols == 0 || camera.nrows == 0) refuse("resolution must be positive");
+        if (camera.distortion == mrpt::img::DistortionModel::kannala_brandt) {
+            refuse("fish-eye lenses are not supported, undistort the images first");
+        }
+        if (camera.k4() != 0 || camera.k5() != 0 || camera.k6() != 0) {
+            refuse("rational lens models (k4 to k6) are not supported, undistort the images first");
+        }
+    }
+
+    std::string path_;
+    mrpt::config::CConfigFileMemory config_;
+};
+
+std::string poseText(const SE3& T) {
+    const mrpt::poses::CPose3D pose = toCPose3D(T);
+    std::string text = "[";
+    for (const double metres : {pose.x(), pose.y(), pose.z()}) text += shortest(metres) + " ";
+    for (const double rad : {pose.yaw(), pose.pitch()}) text += shortest(rad * 180 / M_PI) + " ";
+    return text + shortest(pose.roll() * 180 / M_PI) + "]";
+}
+
+bool sameMotion(const SE3& a, const SE3& b) {
+    return (a.t - b.t).norm() < 1e-12 && (a.R - b.R).norm() < 1e-12;
+}
+
+CameraSetup setupOf(const std::string& name, double fx, double fy, double cx, double cy,
+                    const std::array<double, 5>& distortion) {
+    CameraSetup setup;
+    setup.name = name;
+    setup.camera.fx = fx;
+    setup.camera.fy = fy;
+    setup.camera.cx = cx;
+    setup.camera.cy = cy;
+    setup.camera.distortion = distortion;
+    return setup;
+}
+
+bool digitAt(const std::string& text, std::size_t i) {
+    return i < text.size() && std::isdigit(static_cast<unsigned char>(text[i]));
+}
+
+}  // namespace
+
+CameraSetup::CameraSetup() : T_sensor_imu(kinectImuAxes()) {}
+
+SE3 kinectImuAxes() {
+    return {(Eigen::Matrix3d() << 0, 0, 1, 1, 0, 0, 0, 1, 0).finished(), Eigen::Vector3d::Zero()};
+}
+
+std::optional<CameraSetup> cameraByName(const std::string& name) {
+    if (name == "fr1") {
+        return setupOf(name, 517.3, 516.5, 318.6, 255.3,
+                       {0.2624, -0.9531, -0.0054, 0.0026, 1.1633});
+    }
+    if (name == "fr2") {
+        return setupOf(name, 520.9, 521.0, 325.1, 249.7,
+                       {0.2312, -0.7849, -0.0033, -0.0001, 0.9172});
+    }
+    if (name == "fr3") return setupOf(name, 535.4, 539.2, 320.1, 247.6, {});
+    if (name == "ros") return setupOf(name, 525, 525, 319.5, 239.5, {});
+    return std::nullopt;
+}
+
+std::optional<CameraSetup> cameraByFolderName(const std::string& folder) {
+    std::string name = folder;
+    std::transform(name.begin(), name.end(), name.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    for (const std::string number : {"1", "2", "3"}) {
+        for (const std::string prefix : {"freiburg", "fr"}) {
+            const auto at = name.find(prefix + number);
+            if (at != std::string::npos && !digitAt(name, at + prefix.size() + 1)) {
+                return cameraByName("fr" + number);
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+CameraSetup readCameraFile(const std::string& path) {
+    CameraFile file(path);
+    CameraSetup setup;
+    setup.name = path;
+    setup.camera = file.camera();
+    setup.depth_units = file.positive("depth_units", setup.depth_units);
+    setup.depth_scale = file.positive("depth_scale", setup.depth_scale);
+    setup.T_base_sensor = file.pose("sensor_pose", setup.T_base_sensor);
+    setup.T_sensor_imu = file.pose("imu_pose", setup.T_sensor_imu);
+    return setup;
+}
+
+std::string toIniText(const CameraSetup& setup) {
+    const Camera& camera = setup.camera;
+    std::ostringstream out;
+    out << "[" << section << "]\nresolution = [" << camera.width << " " << camera.height << "]\n";
+    out << "fx = " << shortest(camera.fx) << "\nfy = " << shortest(camera.fy) << "\n";
+    out << "cx = " << shortest(camera.cx) << "\ncy = " << shortest(camera.cy) << "\n";
+    if (camera.hasDistortion()) {
+        out << "distortion_model = plumb_bob\ndist = [";
+        for (const double k : camera.distortion) out << shortest(k) << " ";
+        out << "]\n";
+    }
+    out << "depth_units = " << shortest(setup.depth_units) << "\n";
+    if (setup.depth_scale != 1) out << "depth_scale = " << shortest(setup.depth_scale) << "\n";
+    if (!sameMotion(setup.T_base_sensor, {})) {
+        out << "sensor_pose = " << poseText(setup.T_base_sensor) << "\n";
+    }
+    if (!sameMotion(setup.T_sensor_imu, kinectImuAxes())) {
+        out << "imu_pose = " << poseText(setup.T_sensor_imu) << "\n";
+    }
+    return out.str();
+}
+
+}  // namespace rgbd_graphslam

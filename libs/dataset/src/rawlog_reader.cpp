@@ -1,0 +1,150 @@
+#include "rgbd_graphslam/dataset/rawlog_reader.h"
+
+#include <mrpt/img/CImage.h>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/serialization/CArchive.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <fstream>
+
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace fs = std::filesystem;
+using mrpt::obs::CObservation;
+namespace {
+
+/** Unpacked size modulo 2^32, which ends every gz file; nothing when it is no gz file. */
+std::optional<std::uint32_t> gzSize(const std::string& path) {
+    std::ifstream in(path, std::ios::binary);
+    std::array<unsigned char, 4> bytes{};
+    const auto read = [&] {
+        in.read(reinterpret_cast<char*>(bytes.data()), bytes.size());
+        return in.gcount() == 4;
+    };
+    if (!read() || bytes[0] != 0x1f || bytes[1] != 0x8b) return std::nullopt;
+    in.seekg(-4, std::ios::end);
+    if (!read()) return std::nullopt;
+    return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
+}
+
+/** MRPT's messages are reports of many lines; the line that says what happened is enough. */
+std::string firstMessage(const std::exception& e) {
+    const std::string text = e.what(), mark = "Message:";
+    const auto start = text.rfind(mark);
+    if (start == std::string::npos) return text.substr(0, text.find('\n'));
+    const auto from = text.find_first_not_of(' ', start + mark.size());
+    return text.substr(from, text.find('\n', from) - from);
+}
+
+}  // namespace
+
+class RawlogReader::Implementation {
+  public:
+    explicit Implementation(const std::string& path)
+        : path_(path), images_(imagesFolder(path)), gz_size_(checkedGzSize(path)) {
+        if (!file_.open(path))
+            throw Error("cannot open the rawlog '" + path + "'", "check the name");
+        if (!readEntry() && entries_ == 0) refuse("is empty");
+    }
+
+    CObservation::Ptr next() {
+        while (waiting_.empty() && readEntry()) continue;
+        if (waiting_.empty()) return nullptr;
+        useOwnImages();
+        const auto observation = waiting_.front();
+        waiting_.pop_front();
+        return observation;
+    }
+
+    double progress() const {
+        const double total = gz_size_ ? *gz_size_ : file_.getTotalBytesCount();
+        return total > 0 ? std::min(1.0, file_.getPosition() / total) : 1.0;
+    }
+
+  private:
+    static std::optional<std::uint32_t> checkedGzSize(const std::string& path) {
+        if (!fs::exists(path)) throw Error("there is no rawlog '" + path + "'", "check the name");
+        if (fs::is_directory(path)) {
+            throw Error("'" + path + "' is a folder, not a rawlog", "import it with tum2rawlog");
+        }
+        return gzSize(path);
+    }
+
+    [[noreturn]] void refuse(const std::string& why) const {
+        throw Error("'" + path_ + "' " + why, "give a rawlog of MRPT, or make one with tum2rawlog");
+    }
+
+    /** \return false at the end of the file */
+    bool readEntry() {
+        const auto start = file_.getPosition();
+        mrpt::serialization::CSerializable::Ptr entry;
+        try {
+            entry = mrpt::serialization::archiveFrom(file_).ReadObject();
+        } catch (const std::exception& e) {
+            if (file_.getPosition() == start && whole()) return false;
+            if (entries_ == 0) refuse("is not a rawlog");
+            throw Error("rawlog '" + path_ + "' is cut off or damaged at entry " +
+                            std::to_string(entries_) + ", byte " + std::to_string(start) + " (" +
+                            firstMessage(e) + ")",
+                        "record or import it again");
+        }
+        ++entries_;
+        queue(entry);
+        return true;
+    }
+
+    bool whole() const {
+        return !gz_size_ || static_cast<std::uint32_t>(file_.getPosition()) == *gz_size_;
+    }
+
+    void queue(const mrpt::serialization::CSerializable::Ptr& entry) {
+        if (const auto one = std::dynamic_pointer_cast<CObservation>(entry)) {
+            waiting_.push_back(one);
+        } else if (const auto many = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
+            waiting_.insert(waiting_.end(), many->begin(), many->end());
+        } else if (!std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(entry)) {
+            refuse("is not a rawlog");
+        }
+    }
+
+    /** detectImagesDirectory of MRPT 2.5 drops a slash, hence our own. */
+    void useOwnImages() const {
+        if (mrpt::img::CImage::getImagesPathBase() != images_) {
+            mrpt::img::CImage::setImagesPathBase(images_);
+        }
+    }
+
+    std::string path_, images_;
+    std::optional<std::uint32_t> gz_size_;
+    mrpt::io::CFileGZInputStream file_;
+    std::deque<CObservation::Ptr> waiting_;
+    std::size_t entries_ = 0;
+};
+
+RawlogReader::RawlogReader(const std::string& path)
+    : impl_(std::make_unique<Implementation>(path)) {}
+
+RawlogReader::~RawlogReader() = default;
+
+CObservation::Ptr RawlogReader::next() {
+    return impl_->next();
+}
+
+double RawlogReader::progress() const {
+    return impl_->progress();
+}
+
+std::string RawlogReader::imagesFolder(const std::string& rawlog_path) {
+    fs::path path(rawlog_path);
+    if (path.extension() == ".gz") path.replace_extension();
+    return (path.parent_path() / (path.stem().string() + "_Images")).string();
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,102 @@
+#include "rgbd_graphslam/dataset/rgbd_observation.h"
+
+#include <cstring>
+#include <opencv2/imgproc.hpp>
+
+#include "number_text.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/mrpt_conversions.h"
+
+namespace rgbd_graphslam {
+using mrpt::obs::CObservation3DRangeScan;
+namespace {
+
+/** What viewers scale depth by; readings beyond stay readings. */
+constexpr float max_range_m = 10;
+
+[[noreturn]] void refuse(const CObservation3DRangeScan& observation, const std::string& why) {
+    throw Error("frame at stamp " + stampText(toSeconds(observation.timestamp)) + ": " + why,
+                "import the sequence again with tum2rawlog, or leave this sensor out");
+}
+
+void checkContents(const CObservation3DRangeScan& observation) {
+    if (!observation.hasIntensityImage) refuse(observation, "no colour image");
+    if (!observation.hasRangeImage) refuse(observation, "no depth image");
+    if (!observation.range_is_depth) refuse(observation, "ranges along rays instead of depth");
+}
+
+void loadExternals(const CObservation3DRangeScan& observation) {
+    try {
+        observation.load();
+        observation.intensityImage.forceLoad();
+    } catch (const std::exception&) {
+        const auto& image = observation.intensityImage;
+        refuse(observation, "an image stored outside the rawlog cannot be read" +
+                                (image.isExternallyStored()
+                                     ? " ('" + image.getExternalStorageFileAbsolutePath() + "')"
+                                     : std::string()));
+    }
+}
+
+cv::Mat sharedDepth(const CObservation3DRangeScan& observation) {
+    const auto& ranges = observation.rangeImage;
+    return cv::Mat(static_cast<int>(ranges.rows()), static_cast<int>(ranges.cols()), CV_16UC1,
+                   const_cast<std::uint16_t*>(ranges.data()));
+}
+
+}  // namespace
+
+RgbdImage toRgbdImage(const CObservation3DRangeScan::Ptr& observation) {
+    checkContents(*observation);
+    loadExternals(*observation);
+    RgbdImage image;
+    image.stamp_s = toSeconds(observation->timestamp);
+    image.depth_unit_m = observation->rangeUnits;
+    image.depth = sharedDepth(*observation);
+    image.owner = observation;
+    const cv::Mat pixels = observation->intensityImage.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
+    if (pixels.size() != image.depth.size()) {
+        refuse(*observation, "colour and depth differ in size");
+    }
+    if (pixels.channels() == 1) {
+        image.grey = pixels;
+    } else {
+        image.color = pixels;
+        cv::cvtColor(pixels, image.grey, cv::COLOR_BGR2GRAY);
+    }
+    return image;
+}
+
+Camera cameraOf(const CObservation3DRangeScan& observation) {
+    return toCamera(observation.cameraParamsIntensity);
+}
+
+SE3 cameraOnRobot(const CObservation3DRangeScan& observation) {
+    return toSE3(observation.sensorPose) * toSE3(observation.relativePoseIntensityWRTDepth);
+}
+
+CObservation3DRangeScan::Ptr makeRgbdObservation(const CameraSetup& setup, double stamp_s) {
+    auto observation = CObservation3DRangeScan::Create();
+    observation->sensorLabel = rgbd_label;
+    observation->timestamp = toMrptTime(stamp_s);
+    observation->sensorPose = toCPose3D(setup.T_base_sensor);
+    observation->relativePoseIntensityWRTDepth = toCPose3D(T_optical_from_mrpt.inverse());
+    observation->cameraParams = toTCamera(setup.camera);
+    observation->cameraParamsIntensity = observation->cameraParams;
+    observation->rangeUnits = static_cast<float>(setup.depthUnitInMetres());
+    observation->maxRange = max_range_m;
+    return observation;
+}
+
+void setDepth(CObservation3DRangeScan& observation, const cv::Mat& depth) {
+    observation.hasRangeImage = true;
+    observation.rangeImage_setSize(depth.rows, depth.cols);
+    depth.copyTo(sharedDepth(observation));
+}
+
+void setColor(CObservation3DRangeScan& observation, const cv::Mat& color) {
+    observation.hasIntensityImage = true;
+    observation.intensityImage = mrpt::img::CImage(color, mrpt::img::SHALLOW_COPY);
+}
+
+}  // namespace rgbd_graphslam
