@@ -44,10 +44,16 @@ class CameraFile {
     }
 
     Camera camera() {
-        const bool bent = has("dist") && !has("distortion_model");
-        if (bent) config_.write(section, "distortion_model", std::string("plumb_bob"));
+        if (!has("dist")) config_.write(section, "dist", std::string("[0 0 0 0 0]"));
+        if (!has("distortion_model")) {
+            config_.write(section, "distortion_model", std::string("plumb_bob"));
+        }
         mrpt::img::TCamera camera;
-        camera.loadFromConfigFile(section, config_);
+        try {
+            camera.loadFromConfigFile(section, config_);
+        } catch (const std::exception&) {
+            refuse("distortion_model must be none or plumb_bob");
+        }
         checkLens(camera);
         return toCamera(camera);
     }
@@ -208,11 +214,10 @@ std::string toIniText(const CameraSetup& setup) {
     out << "[" << section << "]\nresolution = [" << camera.width << " " << camera.height << "]\n";
     out << "fx = " << shortest(camera.fx) << "\nfy = " << shortest(camera.fy) << "\n";
     out << "cx = " << shortest(camera.cx) << "\ncy = " << shortest(camera.cy) << "\n";
-    if (camera.hasDistortion()) {
-        out << "distortion_model = plumb_bob\ndist = [";
-        for (const double k : camera.distortion) out << shortest(k) << " ";
-        out << "]\n";
-    }
+    out << "distortion_model = " << (camera.hasDistortion() ? "plumb_bob" : "none") << "\ndist = [";
+    out << shortest(camera.distortion[0]);
+    for (int i = 1; i < 5; ++i) out << " " << shortest(camera.distortion[i]);
+    out << "]\n";
     out << "depth_units = " << shortest(setup.depth_units) << "\n";
     if (setup.depth_scale != 1) out << "depth_scale = " << shortest(setup.depth_scale) << "\n";
     if (!sameMotion(setup.T_base_sensor, {})) {

@@ -1,0 +1,92 @@
+/** tum2rawlog: a TUM RGB-D sequence becomes an MRPT rawlog. */
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+
+#include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/dataset/tum_import.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+    std::string folder, rawlog, camera;
+    double depth_units = 0, depth_scale = 0;
+    bool compact = false, quiet = false, verbose = false;
+    ImportOptions import;
+};
+
+void declare(CLI::App& app, Arguments& args) {
+    app.set_version_flag("--version", RGBD_VERSION);
+    app.add_option("DIR", args.folder, "Folder with rgb.txt and depth.txt")->required();
+    app.add_option("OUT.rawlog", args.rawlog, "Rawlog to write")->required();
+    app.add_option(
+        "--camera", args.camera,
+        "fr1, fr2, fr3, ros or an ini file with [CAMERA_PARAMS]; default: DIR/camera.ini, "
+        "else guessed from the folder's name");
+    app.add_option("--depth-units", args.depth_units,
+                   "Depth units a metre; default: the camera file's, else 5000")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--depth-scale", args.depth_scale,
+                   "Factor on depth; default: the camera file's, else 1")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--max-difference", args.import.max_difference_s,
+                   "Colour and depth further apart are no pair, s")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    app.add_option("--threads", args.import.threads, "Threads that decode images")
+        ->check(CLI::Range(1, 256))
+        ->capture_default_str();
+    app.add_flag("--compact", args.compact,
+                 "Keep images lossless in files beside the rawlog: smaller, slower to read");
+    app.add_flag("--strict", args.import.strict, "A listed file that is missing is an error");
+    app.add_flag("--skip-damaged", args.import.skip_damaged,
+                 "Leave frames with a damaged image out instead of stopping");
+    app.add_flag("-q,--quiet", args.quiet, "Only errors and results");
+    app.add_flag("-v,--verbose", args.verbose, "Say more");
+}
+
+CameraSetup chooseCamera(const Arguments& args) {
+    if (!args.camera.empty()) {
+        const auto known = cameraByName(args.camera);
+        return known ? *known : readCameraFile(args.camera);
+    }
+    const fs::path file = fs::path(args.folder) / "camera.ini";
+    if (fs::exists(file)) {
+        sayInfo("camera: " + file.string());
+        return readCameraFile(file);
+    }
+    if (const auto guess = cameraByFolderName(fs::canonical(args.folder).filename())) {
+        sayInfo("camera: " + guess->name + ", by the folder's name");
+        return *guess;
+    }
+    sayWarning("the folder's name tells no camera; taking ROS's default (f = 525), see --camera");
+    return *cameraByName("ros");
+}
+
+int run(const Arguments& args) {
+    const TumSequence sequence = readTumSequence(args.folder);
+    CameraSetup setup = chooseCamera(args);
+    if (args.depth_units > 0) setup.depth_units = args.depth_units;
+    if (args.depth_scale > 0) setup.depth_scale = args.depth_scale;
+    const ImportReport report = importTumSequence(sequence, setup, args.rawlog, args.import);
+    std::fputs(toText(report).c_str(), stdout);
+    return 0;
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
+
+int main(int argc, char** argv) {
+    using namespace rgbd_graphslam;
+    CLI::App app("Imports a sequence in the TUM RGB-D benchmark's layout into an MRPT rawlog");
+    Arguments args;
+    declare(app, args);
+    CLI11_PARSE(app, argc, argv);
+    if (args.compact) args.import.storage = RawlogStorage::Compact;
+    if (args.quiet) setVerbosity(Verbosity::Quiet);
+    if (args.verbose) setVerbosity(Verbosity::Verbose);
+    return runMain("tum2rawlog", [&] { return run(args); });
+}

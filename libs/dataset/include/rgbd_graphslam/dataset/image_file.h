@@ -1,0 +1,22 @@
+/** Image files of RGB-D sequences, checked to be what they should be. */
+#pragma once
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+namespace rgbd_graphslam {
+
+/** An image that cannot be decoded is not an exception: a long sequence may afford to lose one. */
+struct DecodedImage {
+    cv::Mat pixels;
+    /** Why there are no pixels, empty otherwise. */
+    std::string damage;
+};
+
+/** Decodes PNG or JPEG to CV_8UC3, BGR, in the sensor's orientation. */
+DecodedImage readColorImage(const std::string& path);
+
+/** Decodes a 16-bit PNG to CV_16UC1.
+ *  \throws Error for whole images of another kind: 8 bit, float, OpenEXR, several channels */
+DecodedImage readDepthImage(const std::string& path);
+
+}  // namespace rgbd_graphslam

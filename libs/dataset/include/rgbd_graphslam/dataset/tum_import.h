@@ -1,0 +1,59 @@
+/** TUM folder to rawlog. */
+#pragma once
+#include <cstddef>
+#include <string>
+
+#include "rgbd_graphslam/dataset/camera_file.h"
+#include "rgbd_graphslam/dataset/rawlog_writer.h"
+#include "rgbd_graphslam/dataset/tum_sequence.h"
+
+namespace rgbd_graphslam {
+
+struct ImportOptions {
+    /** Colour and depth further apart than this are no pair, s. */
+    double max_difference_s = 0.02;
+    RawlogStorage storage = RawlogStorage::Embedded;
+    /** A listed file that is missing is an error. */
+    bool strict = false;
+    /** Frames whose image is damaged are left out and counted instead of an error. */
+    bool skip_damaged = false;
+    /** Threads that decode images. */
+    int threads = 2;
+};
+
+/** What became of the images of one list. */
+struct ImageTally {
+    std::size_t listed = 0, missing = 0, repeated = 0;
+    /** No image of the other kind near enough. */
+    std::size_t no_partner = 0;
+    /** All images of the other kind that are near enough went to nearer ones. */
+    std::size_t partner_taken = 0;
+    /** Stamps earlier than the line before; they are sorted. */
+    std::size_t backwards = 0;
+
+    std::size_t leftOver() const { return missing + repeated + no_partner + partner_taken; }
+};
+
+struct ImportReport {
+    ImageTally color, depth;
+    /** Frames written, and pairs left out because an image of theirs is damaged. */
+    std::size_t frames = 0, damaged = 0;
+    std::size_t imu = 0, odometry = 0, truth = 0;
+    /** Stamps of the first and last frame, UNIX time. */
+    double first_stamp_s = 0, last_stamp_s = 0;
+    /** Duration of the import. */
+    double seconds = 0;
+};
+
+/** A few lines for the user. */
+std::string toText(const ImportReport& report);
+
+/** Writes colour and depth pairs (stamped by colour), accelerometer and gyroscope, odometry and
+ *  ground truth to a rawlog, in order of time over all sensors. Depth keeps its bits; its own
+ * stamps are kept as DepthStamps. Shows progress. \throws Error when nothing can be paired, an
+ * image is of the wrong kind or size, a damaged or (if strict) missing image is met, or the rawlog
+ * cannot be written */
+ImportReport importTumSequence(const TumSequence& sequence, const CameraSetup& setup,
+                               const std::string& rawlog_path, const ImportOptions& options);
+
+}  // namespace rgbd_graphslam
