@@ -1,0 +1,58 @@
+/** The map around the newest keyframe. */
+#pragma once
+#include <future>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "rgbd_graphslam/slam/bundle_adjustment.h"
+#include "rgbd_graphslam/slam/slam_map.h"
+
+namespace rgbd_graphslam {
+
+/** Makes landmarks, joins double ones, drops what does not prove itself, and adjusts the poses and
+ *  points around a new keyframe. The adjustment works on a copy in the background; the caller says
+ *  at which frame the result enters the map. */
+class LocalMapper {
+  public:
+    /** All arguments must outlive the mapper. */
+    LocalMapper(const SlamOptions& options, const Camera& camera, SlamMap& map);
+    ~LocalMapper();
+
+    /** Grows the map by a keyframe that was just added with its tracked landmarks, and starts the
+     *  adjustment. handOver() must have been called since the last time. */
+    void insert(int keyframe);
+
+    bool pending() const { return pending_ != nullptr; }
+    /** Waits for the adjustment and writes it into the map. Does nothing when none is pending.
+     *  \return CPU ms that the adjustment took */
+    double handOver();
+
+    /** Looks for landmarks in a keyframe: a free keypoint there becomes an observation, an occupied
+     *  one reveals a double landmark, which is fused. */
+    void joinInto(int keyframe, std::vector<int> landmarks);
+
+    /** Adjusts all keyframes and landmarks at once (Ceres), keyframe 0 held. */
+    void adjustAll(int iterations);
+
+  private:
+    struct Job;
+    void createFromDepth(int keyframe);
+    void joinWithNeighbours(int keyframe);
+    void join(int landmark, int keyframe, int keypoint);
+    void cullLandmarks(int keyframe);
+    void cullKeyframes(int keyframe);
+    double redundancy(const Keyframe& keyframe) const;
+    std::unique_ptr<Job> makeJob(int keyframe) const;
+    std::vector<int> landmarksSeenBy(const std::vector<int>& keyframes) const;
+    void fillProblem(Job& job) const;
+    void apply(const Job& job);
+
+    const SlamOptions& options_;
+    const Camera& camera_;
+    SlamMap& map_;
+    std::vector<int> recent_;  // landmarks still on probation
+    std::unique_ptr<Job> pending_;
+};
+
+}  // namespace rgbd_graphslam

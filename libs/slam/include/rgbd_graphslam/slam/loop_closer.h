@@ -1,0 +1,54 @@
+/** Places seen before: loops between keyframes, and frames that have lost their way. */
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "rgbd_graphslam/slam/local_mapper.h"
+#include "rgbd_graphslam/slam/place_index.h"
+#include "rgbd_graphslam/slam/tracker.h"
+
+namespace rgbd_graphslam {
+
+class LoopCloser {
+  public:
+    /** All arguments must outlive the closer. */
+    LoopCloser(const SlamOptions& options, const Camera& camera, SlamMap& map);
+
+    /** Compares a keyframe with all earlier ones and remembers it. Verified loops join poseGraph().
+     *  \return edges from the earlier keyframe to this one */
+    std::vector<PoseEdge> findLoops(int keyframe);
+
+    /** Finds a frame anywhere in the map, without any idea of its pose. */
+    std::optional<LocatedFrame> relocalise(const Frame& frame, Tracker& tracker) const;
+
+    /** Relative pose of two successive keyframes, with the information of the landmarks that both
+     *  see. */
+    PoseEdge odometryEdge(int keyframe) const;
+
+    PoseGraph poseGraph() const;
+
+    /** Moves keyframes, and landmarks with the keyframe that saw them last; then fuses what the
+     * loops since the last call brought together. */
+    void correct(const std::vector<SE3>& T_world_keyframe, LocalMapper& mapper);
+
+  private:
+    struct Loop {
+        PoseEdge edge;
+        std::vector<int> landmarks;  // of the earlier place, seen again
+    };
+    std::optional<Loop> verify(int keyframe, int candidate);
+    std::optional<LocatedFrame> align(const Frame& frame, int candidate) const;
+    std::vector<Descriptor> placeDescriptors(int keyframe) const;
+    std::vector<int> candidatesFor(int keyframe) const;
+    Matrix6d informationOf(int keyframe, const std::vector<int>& landmarks) const;
+
+    const SlamOptions& options_;
+    const Camera& camera_;
+    SlamMap& map_;
+    PlaceIndex index_;
+    Tracker verifier_;
+    std::vector<PoseEdge> loops_;
+    std::vector<Loop> unfused_;
+};
+
+}  // namespace rgbd_graphslam

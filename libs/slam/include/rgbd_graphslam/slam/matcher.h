@@ -1,0 +1,45 @@
+/** Search for the keypoints of a frame that show given points. */
+#pragma once
+#include <vector>
+
+#include "rgbd_graphslam/features/frame.h"
+
+namespace rgbd_graphslam {
+
+/** Where and among which pyramid levels a point is looked for. */
+struct SearchWindow {
+    float u = 0, v = 0;  // px
+    float radius = 0;    // px
+    int octave_min = 0, octave_max = 0;
+};
+
+/** Keypoints of a frame claimed by points; the nearer descriptor wins a contested keypoint. */
+class MatchTable {
+  public:
+    /** \param frame must outlive the table */
+    explicit MatchTable(const Frame& frame);
+
+    /** Takes a keypoint out of the search. */
+    void reserve(int keypoint) { distance_[keypoint] = -1; }
+
+    /** Looks for `point` and claims the best keypoint in the window for it, unless a second one
+     *  comes nearly as near (`ratio` of best to second distance on neighbouring levels).
+     *  \param max_hamming farthest distance accepted */
+    void search(int point, const Descriptor& descriptor, const SearchWindow& window,
+                int max_hamming, float ratio);
+
+    /** Claims so far: (keypoint, point) by rising keypoint. */
+    std::vector<std::pair<int, int>> matches() const;
+
+  private:
+    const Frame& frame_;
+    std::vector<int> point_;     // one a keypoint, -1 = unclaimed
+    std::vector<int> distance_;  // of the claim; -1 = reserved
+};
+
+/** Pairs (index in a, index in b) of keypoints that are each other's nearest by descriptor, nearer
+ *  than `ratio` times the second nearest. Exhaustive: for frames with no known relative pose. */
+std::vector<std::pair<int, int>> matchMutually(const Frame& a, const Frame& b, int max_hamming,
+                                               float ratio);
+
+}  // namespace rgbd_graphslam

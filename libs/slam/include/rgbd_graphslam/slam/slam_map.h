@@ -1,0 +1,105 @@
+/** Keyframes, landmarks and who sees what. */
+#pragma once
+#include <utility>
+#include <vector>
+
+#include "rgbd_graphslam/features/frame.h"
+#include "rgbd_graphslam/geometry/se3.h"
+
+namespace rgbd_graphslam {
+
+constexpr int no_landmark = -1;
+
+struct Observation {
+    int keyframe = 0;
+    int keypoint = 0;
+};
+
+/** A point of the world that keyframes see. Its appearance is that of the latest keyframe that saw
+ *  it, which is the view nearest to what tracking will meet. */
+struct Landmark {
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();  // world, m
+    /** Unit vector from the landmark to the camera that saw it last. */
+    Eigen::Vector3d view_direction = Eigen::Vector3d::UnitZ();
+    /** Distance at which it would be seen on pyramid level 0, m. */
+    double level0_distance = 1;
+    Descriptor descriptor{};
+    std::vector<Observation> observations;  // by rising keyframe
+    int first_keyframe = 0;
+    /** Frames that should have seen it, and did. */
+    int times_expected = 1, times_found = 1;
+    bool alive = true;
+};
+
+struct Keyframe {
+    int id = 0;
+    Frame frame;
+    SE3 T_cam_world;
+    /** One entry a keypoint: landmark or no_landmark. */
+    std::vector<int> landmarks;
+    /** A culled keyframe keeps its place relative to the keyframe `parent`. */
+    bool culled = false;
+    int parent = -1;
+    SE3 T_cam_parent;
+};
+
+/** Number of landmarks that two keyframes share. */
+struct Covisibility {
+    int keyframe = 0;
+    int shared = 0;
+};
+
+/** The sparse map. Keeps both directions of every observation consistent; all methods that change
+ * it go through it. Ids count from 0 without gaps and are never used again. */
+class SlamMap {
+  public:
+    /** \param scale_factor between pyramid levels; \param levels of the pyramid */
+    SlamMap(double scale_factor, int levels);
+
+    int addKeyframe(Frame frame, const SE3& T_cam_world);
+    int addLandmark(const Eigen::Vector3d& position, int keyframe, int keypoint);
+    /** The keypoint must be free and the landmark not yet seen by the keyframe. */
+    void addObservation(int landmark, int keyframe, int keypoint);
+    /** A landmark that loses its last observation dies. */
+    void removeObservation(int landmark, int keyframe);
+    void removeLandmark(int landmark);
+    /** Gives the observations of `from` to `into` and removes `from`. */
+    void fuse(int from, int into);
+    /** Takes a keyframe out of the map; its pose stays tied to `parent`. */
+    void cull(int keyframe, int parent);
+
+    const std::vector<Keyframe>& keyframes() const { return keyframes_; }
+    const std::vector<Landmark>& landmarks() const { return landmarks_; }
+    const Keyframe& keyframe(int id) const { return keyframes_[id]; }
+    const Landmark& landmark(int id) const { return landmarks_[id]; }
+    Landmark& landmark(int id) { return landmarks_[id]; }
+    std::size_t aliveLandmarks() const { return alive_; }
+
+    /** Of culled keyframes too. */
+    SE3 T_cam_world(int keyframe) const;
+    void setPose(int keyframe, const SE3& T_cam_world);
+
+    /** Keypoint by which a keyframe sees a landmark, or -1. */
+    int keypointOf(int landmark, int keyframe) const;
+    /** Living keyframes that share at least `fewest` landmarks, most first, then by id. */
+    std::vector<Covisibility> covisible(int keyframe, int fewest = 15) const;
+    /** The same for any set of landmarks; entries of no_landmark are passed over. */
+    std::vector<Covisibility> observers(const std::vector<int>& landmarks, int fewest = 1) const;
+
+    double scaleOf(int octave) const { return scale_[octave]; }
+    /** Pyramid level on which a landmark at a distance (m) is expected, not clamped. */
+    int expectedOctave(const Landmark& landmark, double distance) const;
+    int levels() const { return static_cast<int>(scale_.size()); }
+
+  private:
+    void refreshAppearance(int landmark);
+
+    std::vector<double> scale_;
+    double log_scale_factor_;
+    std::vector<Keyframe> keyframes_;
+    std::vector<Landmark> landmarks_;
+    std::size_t alive_ = 0;
+    mutable std::vector<int> votes_;  // one a keyframe, all zero between calls
+};
+
+}  // namespace rgbd_graphslam

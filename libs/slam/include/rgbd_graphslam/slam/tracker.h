@@ -1,0 +1,69 @@
+/** Pose of each new frame against the map. */
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "rgbd_graphslam/slam/pose_solver.h"
+#include "rgbd_graphslam/slam/slam_map.h"
+
+namespace rgbd_graphslam {
+
+/** A frame whose pose is known. */
+struct LocatedFrame {
+    SE3 T_cam_world;
+    /** One a keypoint: the landmark it shows, or no_landmark. */
+    std::vector<int> landmarks;
+    int inliers = 0;
+};
+
+/** Frame-to-frame prediction, then the local map. Keeps the last frame; all that it remembers is
+ *  tied to a keyframe, so that it moves with the map. */
+class Tracker {
+  public:
+    /** All arguments must outlive the tracker. */
+    Tracker(const SlamOptions& options, const Camera& camera, SlamMap& map);
+
+    /** \return nothing when fewer than `min_inliers` landmarks agree with any pose */
+    std::optional<LocatedFrame> track(const Frame& frame);
+
+    /** Searches the landmarks around a pose and refines it; for a frame placed by other means.
+     *  \param landmarks known already, one a keypoint */
+    std::optional<LocatedFrame> trackLocalMap(const Frame& frame, const SE3& T_cam_world,
+                                              const std::vector<int>& landmarks);
+
+    /** Tells where the last frame was, after track() or other means.
+     *  \param reference_keyframe that the pose is tied to
+     *  \param keep_motion false forgets the velocity (after a jump) */
+    void setLast(Frame frame, LocatedFrame located, int reference_keyframe, bool keep_motion);
+
+    bool hasLast() const { return last_.has_value(); }
+    void forget() { last_.reset(); }
+
+  private:
+    struct Last {
+        Frame frame;
+        std::vector<int> landmarks;
+        int reference_keyframe = 0;
+        SE3 T_cam_reference;
+    };
+    SE3 lastPose() const;
+    std::vector<int> matchLast(const Frame& frame, const SE3& predicted, double window_px,
+                               PoseSolution& solution) const;
+    std::vector<int> localLandmarks(const std::vector<int>& matched);
+    void searchLocalLandmarks(const Frame& frame, const SE3& T_cam_world,
+                              std::vector<int>& landmarks);
+
+    const SlamOptions& options_;
+    const Camera& camera_;
+    SlamMap& map_;
+    std::optional<Last> last_;
+    SE3 motion_;                // T_cam_lastcam of the last two frames
+    std::vector<int> visited_;  // one a landmark: search in which it was met last
+    int search_ = 0;
+};
+
+/** Matches of a frame's keypoints with the landmarks they show. */
+std::vector<PointMatch> matchesOf(const Frame& frame, const std::vector<int>& landmarks,
+                                  const SlamMap& map, const SensorOptions& sensor);
+
+}  // namespace rgbd_graphslam

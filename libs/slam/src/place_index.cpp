@@ -1,0 +1,129 @@
+#include "rgbd_graphslam/slam/place_index.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "popcount.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr int tree_count = 4;
+constexpr int descriptor_bits = 256;
+constexpr std::size_t leaf_capacity = 80;
+/** A bit that splits worse than this says too little. */
+constexpr double most_unbalanced = 0.3;
+
+struct Entry {
+    Descriptor descriptor;
+    int keyframe;
+};
+
+bool bitOf(const Descriptor& descriptor, int bit) {
+    return (descriptor[bit / 64] >> (bit % 64)) & 1;
+}
+
+RGBD_WITH_POPCOUNT
+void voteInLeaf(const std::vector<Entry>& leaf, const Descriptor& query, int max_hamming,
+                int query_index, std::vector<int>& last_voter, std::vector<int>& votes) {
+    for (const Entry& entry : leaf) {
+        if (last_voter[entry.keyframe] == query_index) continue;
+        if (hammingDistance(entry.descriptor, query) > max_hamming) continue;
+        last_voter[entry.keyframe] = query_index;
+        ++votes[entry.keyframe];
+    }
+}
+
+}  // namespace
+
+/** Uses the bits that are `first_bit` modulo the number of trees. */
+struct PlaceIndex::Tree {
+    struct Node {
+        int bit = -1;  // -1 = leaf
+        int child[2] = {-1, -1};
+        std::size_t splits_at = leaf_capacity;
+        std::vector<Entry> entries;
+    };
+    explicit Tree(int first) : first_bit(first), nodes(1) {}
+
+    int leafOf(const Descriptor& descriptor) const {
+        int node = 0;
+        while (nodes[node].bit >= 0) node = nodes[node].child[bitOf(descriptor, nodes[node].bit)];
+        return node;
+    }
+
+    void insert(const Entry& entry) {
+        const int leaf = leafOf(entry.descriptor);
+        nodes[leaf].entries.push_back(entry);
+        if (nodes[leaf].entries.size() > nodes[leaf].splits_at) split(leaf);
+    }
+
+    void split(int leaf) {
+        const std::vector<Entry> entries = std::move(nodes[leaf].entries);
+        const int bit = mostBalancedBit(entries);
+        if (bit < 0) {
+            nodes[leaf].splits_at = 2 * entries.size();
+            nodes[leaf].entries = entries;
+            return;
+        }
+        const int first_child = static_cast<int>(nodes.size());
+        nodes.resize(nodes.size() + 2);
+        nodes[leaf].bit = bit;
+        nodes[leaf].entries = {};
+        for (const int side : {0, 1}) nodes[leaf].child[side] = first_child + side;
+        for (const Entry& entry : entries) {
+            nodes[first_child + bitOf(entry.descriptor, bit)].entries.push_back(entry);
+        }
+    }
+
+    int mostBalancedBit(const std::vector<Entry>& entries) const {
+        int best = -1;
+        double best_imbalance = most_unbalanced;
+        for (int bit = first_bit; bit < descriptor_bits; bit += tree_count) {
+            int ones = 0;
+            for (const Entry& entry : entries) ones += bitOf(entry.descriptor, bit);
+            const double imbalance = std::abs(static_cast<double>(ones) / entries.size() - 0.5);
+            if (imbalance < best_imbalance) {
+                best_imbalance = imbalance;
+                best = bit;
+            }
+        }
+        return best;
+    }
+
+    int first_bit;
+    std::vector<Node> nodes;
+};
+
+PlaceIndex::PlaceIndex(int max_hamming) : max_hamming_(max_hamming) {
+    for (int t = 0; t < tree_count; ++t) trees_.push_back(std::make_unique<Tree>(t));
+}
+
+PlaceIndex::~PlaceIndex() = default;
+
+void PlaceIndex::insert(int keyframe, const std::vector<Descriptor>& descriptors) {
+    keyframes_ = keyframe + 1;
+    for (const Descriptor& descriptor : descriptors) {
+        for (auto& tree : trees_) tree->insert({descriptor, keyframe});
+    }
+}
+
+std::vector<PlaceVote> PlaceIndex::query(const std::vector<Descriptor>& descriptors) const {
+    std::vector<int> last_voter(keyframes_, -1), votes(keyframes_, 0);
+    for (std::size_t i = 0; i < descriptors.size(); ++i) {
+        for (const auto& tree : trees_) {
+            const auto& leaf = tree->nodes[tree->leafOf(descriptors[i])].entries;
+            voteInLeaf(leaf, descriptors[i], max_hamming_, static_cast<int>(i), last_voter, votes);
+        }
+    }
+    std::vector<PlaceVote> result;
+    for (int k = 0; k < keyframes_; ++k) {
+        if (votes[k]) result.push_back({k, votes[k]});
+    }
+    std::sort(result.begin(), result.end(), [](const PlaceVote& a, const PlaceVote& b) {
+        return a.votes != b.votes ? a.votes > b.votes : a.keyframe < b.keyframe;
+    });
+    return result;
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,155 @@
+#include "rgbd_graphslam/slam/slam_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace rgbd_graphslam {
+
+SlamMap::SlamMap(double scale_factor, int levels) : log_scale_factor_(std::log(scale_factor)) {
+    for (int l = 0; l < levels; ++l) scale_.push_back(std::pow(scale_factor, l));
+}
+
+int SlamMap::addKeyframe(Frame frame, const SE3& T_cam_world) {
+    Keyframe keyframe;
+    keyframe.id = static_cast<int>(keyframes_.size());
+    keyframe.landmarks.assign(frame.keypoints.size(), no_landmark);
+    keyframe.frame = std::move(frame);
+    keyframe.T_cam_world = T_cam_world;
+    keyframes_.push_back(std::move(keyframe));
+    votes_.push_back(0);
+    return keyframes_.back().id;
+}
+
+int SlamMap::addLandmark(const Eigen::Vector3d& position, int keyframe, int keypoint) {
+    Landmark landmark;
+    landmark.position = position;
+    landmark.first_keyframe = keyframe;
+    landmarks_.push_back(std::move(landmark));
+    ++alive_;
+    const int id = static_cast<int>(landmarks_.size()) - 1;
+    addObservation(id, keyframe, keypoint);
+    return id;
+}
+
+void SlamMap::addObservation(int landmark, int keyframe, int keypoint) {
+    auto& observations = landmarks_[landmark].observations;
+    const auto place =
+        std::lower_bound(observations.begin(), observations.end(), keyframe,
+                         [](const Observation& o, int id) { return o.keyframe < id; });
+    observations.insert(place, {keyframe, keypoint});
+    keyframes_[keyframe].landmarks[keypoint] = landmark;
+    refreshAppearance(landmark);
+}
+
+void SlamMap::refreshAppearance(int id) {
+    Landmark& landmark = landmarks_[id];
+    const Observation& latest = landmark.observations.back();
+    const Keyframe& keyframe = keyframes_[latest.keyframe];
+    const Eigen::Vector3d to_camera = keyframe.T_cam_world.inverse().t - landmark.position;
+    const double distance = std::max(to_camera.norm(), 1e-6);
+    landmark.view_direction = to_camera / distance;
+    landmark.level0_distance = distance * scale_[keyframe.frame.keypoints[latest.keypoint].octave];
+    landmark.descriptor = keyframe.frame.descriptors[latest.keypoint];
+}
+
+void SlamMap::removeObservation(int id, int keyframe) {
+    auto& observations = landmarks_[id].observations;
+    const auto place = std::find_if(observations.begin(), observations.end(),
+                                    [&](const Observation& o) { return o.keyframe == keyframe; });
+    if (place == observations.end()) return;
+    keyframes_[keyframe].landmarks[place->keypoint] = no_landmark;
+    observations.erase(place);
+    if (observations.empty()) {
+        landmarks_[id].alive = false;
+        --alive_;
+    } else {
+        refreshAppearance(id);
+    }
+}
+
+void SlamMap::removeLandmark(int id) {
+    Landmark& landmark = landmarks_[id];
+    if (!landmark.alive) return;
+    for (const Observation& o : landmark.observations) {
+        keyframes_[o.keyframe].landmarks[o.keypoint] = no_landmark;
+    }
+    landmark.observations = {};
+    landmark.alive = false;
+    --alive_;
+}
+
+void SlamMap::fuse(int from, int into) {
+    const std::vector<Observation> moved = landmarks_[from].observations;
+    landmarks_[into].times_expected += landmarks_[from].times_expected;
+    landmarks_[into].times_found += landmarks_[from].times_found;
+    removeLandmark(from);
+    for (const Observation& o : moved) {
+        if (keypointOf(into, o.keyframe) < 0) addObservation(into, o.keyframe, o.keypoint);
+    }
+}
+
+void SlamMap::cull(int id, int parent) {
+    Keyframe& keyframe = keyframes_[id];
+    const std::vector<int> seen = keyframe.landmarks;
+    for (const int landmark : seen) {
+        if (landmark != no_landmark) removeObservation(landmark, id);
+    }
+    keyframe.culled = true;
+    keyframe.parent = parent;
+    keyframe.T_cam_parent = keyframe.T_cam_world * T_cam_world(parent).inverse();
+    const double stamp_s = keyframe.frame.stamp_s;
+    keyframe.frame = Frame{};
+    keyframe.frame.stamp_s = stamp_s;
+    keyframe.landmarks = {};
+}
+
+SE3 SlamMap::T_cam_world(int id) const {
+    const Keyframe& keyframe = keyframes_[id];
+    return keyframe.culled ? keyframe.T_cam_parent * T_cam_world(keyframe.parent)
+                           : keyframe.T_cam_world;
+}
+
+void SlamMap::setPose(int keyframe, const SE3& T_cam_world) {
+    keyframes_[keyframe].T_cam_world = T_cam_world;
+}
+
+int SlamMap::keypointOf(int landmark, int keyframe) const {
+    for (const Observation& o : landmarks_[landmark].observations) {
+        if (o.keyframe == keyframe) return o.keypoint;
+    }
+    return -1;
+}
+
+std::vector<Covisibility> SlamMap::covisible(int keyframe, int fewest) const {
+    auto all = observers(keyframes_[keyframe].landmarks, fewest);
+    all.erase(std::remove_if(all.begin(), all.end(),
+                             [&](const Covisibility& c) { return c.keyframe == keyframe; }),
+              all.end());
+    return all;
+}
+
+std::vector<Covisibility> SlamMap::observers(const std::vector<int>& landmarks, int fewest) const {
+    std::vector<int> voted;
+    for (const int id : landmarks) {
+        if (id == no_landmark) continue;
+        for (const Observation& o : landmarks_[id].observations) {
+            if (votes_[o.keyframe]++ == 0) voted.push_back(o.keyframe);
+        }
+    }
+    std::vector<Covisibility> result;
+    for (const int keyframe : voted) {
+        if (votes_[keyframe] >= fewest) result.push_back({keyframe, votes_[keyframe]});
+        votes_[keyframe] = 0;
+    }
+    std::sort(result.begin(), result.end(), [](const Covisibility& a, const Covisibility& b) {
+        return a.shared != b.shared ? a.shared > b.shared : a.keyframe < b.keyframe;
+    });
+    return result;
+}
+
+int SlamMap::expectedOctave(const Landmark& landmark, double distance) const {
+    return static_cast<int>(
+        std::lround(std::log(landmark.level0_distance / distance) / log_scale_factor_));
+}
+
+}  // namespace rgbd_graphslam

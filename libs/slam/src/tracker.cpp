@@ -1,0 +1,187 @@
+#include "rgbd_graphslam/slam/tracker.h"
+
+#include <algorithm>
+
+#include "rgbd_graphslam/slam/matcher.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr float motion_match_ratio = 0.9f;
+constexpr float map_match_ratio = 0.85f;
+constexpr double widest_view_change_cosine = 0.5;
+
+/** The matched keypoints in rising order with what they show. */
+struct KeypointMatches {
+    std::vector<int> keypoints;
+    std::vector<PointMatch> matches;
+};
+
+KeypointMatches collect(const Frame& frame, const std::vector<int>& landmarks, const SlamMap& map,
+                        const SensorOptions& sensor) {
+    KeypointMatches result;
+    for (std::size_t i = 0; i < landmarks.size(); ++i) {
+        if (landmarks[i] == no_landmark) continue;
+        const Keypoint& keypoint = frame.keypoints[i];
+        result.keypoints.push_back(static_cast<int>(i));
+        result.matches.push_back({map.landmark(landmarks[i]).position,
+                                  measurementOf(keypoint, map.scaleOf(keypoint.octave), sensor)});
+    }
+    return result;
+}
+
+}  // namespace
+
+std::vector<PointMatch> matchesOf(const Frame& frame, const std::vector<int>& landmarks,
+                                  const SlamMap& map, const SensorOptions& sensor) {
+    return collect(frame, landmarks, map, sensor).matches;
+}
+
+Tracker::Tracker(const SlamOptions& options, const Camera& camera, SlamMap& map)
+    : options_(options), camera_(camera), map_(map) {}
+
+SE3 Tracker::lastPose() const {
+    return last_->T_cam_reference * map_.T_cam_world(last_->reference_keyframe);
+}
+
+void Tracker::setLast(Frame frame, LocatedFrame located, int reference_keyframe, bool keep_motion) {
+    motion_ = keep_motion && last_ ? located.T_cam_world * lastPose().inverse() : SE3();
+    last_ = Last{std::move(frame), std::move(located.landmarks), reference_keyframe,
+                 located.T_cam_world * map_.T_cam_world(reference_keyframe).inverse()};
+}
+
+std::optional<LocatedFrame> Tracker::track(const Frame& frame) {
+    if (!last_) return std::nullopt;
+    const SE3 predicted = motion_ * lastPose();
+    for (const double window :
+         {options_.tracker.motion_window_px, options_.tracker.wide_window_px}) {
+        PoseSolution solution;
+        const std::vector<int> landmarks = matchLast(frame, predicted, window, solution);
+        if (solution.inliers < options_.tracker.min_inliers) continue;
+        if (auto located = trackLocalMap(frame, solution.T_cam_world, landmarks)) return located;
+    }
+    return std::nullopt;
+}
+
+/** Matches the points of the last frame, landmarks or not, and solves for the pose.
+ *  \return landmarks of the inliers, one a keypoint */
+std::vector<int> Tracker::matchLast(const Frame& frame, const SE3& predicted, double window_px,
+                                    PoseSolution& solution) const {
+    const SE3 T_world_last = lastPose().inverse();
+    std::vector<Eigen::Vector3d> positions(last_->frame.keypoints.size());
+    MatchTable table(frame);
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const Keypoint& keypoint = last_->frame.keypoints[i];
+        const int landmark = last_->landmarks[i];
+        if (landmark != no_landmark && map_.landmark(landmark).alive) {
+            positions[i] = map_.landmark(landmark).position;
+        } else if (keypoint.depth_m > 0) {
+            positions[i] =
+                T_world_last * camera_.unproject(keypoint.u, keypoint.v, keypoint.depth_m);
+        } else {
+            continue;
+        }
+        const Eigen::Vector3d p = predicted * positions[i];
+        if (p.z() < nearest_depth_m) continue;
+        const Eigen::Vector2d pixel = camera_.project(p);
+        if (!camera_.contains(pixel)) continue;
+        const auto radius = static_cast<float>(window_px * map_.scaleOf(keypoint.octave));
+        table.search(static_cast<int>(i), last_->frame.descriptors[i],
+                     {static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), radius,
+                      keypoint.octave - 1, keypoint.octave + 1},
+                     options_.tracker.max_hamming, motion_match_ratio);
+    }
+    const auto pairs = table.matches();
+    std::vector<PointMatch> matches;
+    for (const auto& [keypoint, point] : pairs) {
+        const Keypoint& k = frame.keypoints[keypoint];
+        matches.push_back(
+            {positions[point], measurementOf(k, map_.scaleOf(k.octave), options_.sensor)});
+    }
+    solution = solvePose(camera_, matches, predicted);
+    std::vector<int> landmarks(frame.keypoints.size(), no_landmark);
+    for (std::size_t m = 0; m < pairs.size(); ++m) {
+        const int landmark = last_->landmarks[pairs[m].second];
+        if (!solution.inlier[m] || landmark == no_landmark) continue;
+        if (map_.landmark(landmark).alive) landmarks[pairs[m].first] = landmark;
+    }
+    return landmarks;
+}
+
+std::optional<LocatedFrame> Tracker::trackLocalMap(const Frame& frame, const SE3& T_cam_world,
+                                                   const std::vector<int>& landmarks) {
+    LocatedFrame located;
+    located.landmarks = landmarks;
+    searchLocalLandmarks(frame, T_cam_world, located.landmarks);
+    const auto found = collect(frame, located.landmarks, map_, options_.sensor);
+    const PoseSolution solution = solvePose(camera_, found.matches, T_cam_world);
+    if (solution.inliers < options_.tracker.min_inliers) return std::nullopt;
+    located.T_cam_world = solution.T_cam_world;
+    located.inliers = solution.inliers;
+    for (std::size_t m = 0; m < found.keypoints.size(); ++m) {
+        int& landmark = located.landmarks[found.keypoints[m]];
+        if (solution.inlier[m]) {
+            ++map_.landmark(landmark).times_found;
+        } else {
+            landmark = no_landmark;
+        }
+    }
+    return located;
+}
+
+/** Living landmarks of the keyframes that see the matched ones, without the matched ones. */
+std::vector<int> Tracker::localLandmarks(const std::vector<int>& matched) {
+    ++search_;
+    visited_.resize(map_.landmarks().size(), 0);
+    for (const int landmark : matched) {
+        if (landmark != no_landmark) visited_[landmark] = search_;
+    }
+    auto keyframes = map_.observers(matched);
+    if (keyframes.empty() && last_) keyframes = {{last_->reference_keyframe, 0}};
+    if (static_cast<int>(keyframes.size()) > options_.tracker.max_local_keyframes) {
+        keyframes.resize(options_.tracker.max_local_keyframes);
+    }
+    std::vector<int> local;
+    for (const Covisibility& c : keyframes) {
+        for (const int landmark : map_.keyframe(c.keyframe).landmarks) {
+            if (landmark == no_landmark || visited_[landmark] == search_) continue;
+            visited_[landmark] = search_;
+            local.push_back(landmark);
+        }
+    }
+    return local;
+}
+
+void Tracker::searchLocalLandmarks(const Frame& frame, const SE3& T_cam_world,
+                                   std::vector<int>& landmarks) {
+    const Eigen::Vector3d camera_position = T_cam_world.inverse().t;
+    MatchTable table(frame);
+    for (std::size_t i = 0; i < landmarks.size(); ++i) {
+        if (landmarks[i] == no_landmark) continue;
+        table.reserve(static_cast<int>(i));
+        ++map_.landmark(landmarks[i]).times_expected;
+    }
+    for (const int id : localLandmarks(landmarks)) {
+        Landmark& landmark = map_.landmark(id);
+        const Eigen::Vector3d p = T_cam_world * landmark.position;
+        if (p.z() < nearest_depth_m) continue;
+        const Eigen::Vector2d pixel = camera_.project(p);
+        if (!camera_.contains(pixel)) continue;
+        const Eigen::Vector3d to_camera = camera_position - landmark.position;
+        const double distance = to_camera.norm();
+        if (to_camera.dot(landmark.view_direction) < widest_view_change_cosine * distance) continue;
+        const int octave = map_.expectedOctave(landmark, distance);
+        if (octave < -1 || octave > map_.levels()) continue;
+        ++landmark.times_expected;
+        const int clamped = std::clamp(octave, 0, map_.levels() - 1);
+        const auto radius =
+            static_cast<float>(options_.tracker.map_window_px * map_.scaleOf(clamped));
+        table.search(id, landmark.descriptor,
+                     {static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), radius,
+                      octave - 1, octave + 1},
+                     options_.tracker.max_hamming, map_match_ratio);
+    }
+    for (const auto& [keypoint, landmark] : table.matches()) landmarks[keypoint] = landmark;
+}
+
+}  // namespace rgbd_graphslam
