@@ -4,7 +4,7 @@
 
 #include "rgbd_graphslam/slam/global_adjustment.h"
 #include "rgbd_graphslam/slam/matcher.h"
-#include "thread_clock.h"
+#include "rgbd_graphslam/slam/thread_clock.h"
 
 namespace rgbd_graphslam {
 namespace {

@@ -8,8 +8,8 @@
 #include "rgbd_graphslam/features/frame_builder.h"
 #include "rgbd_graphslam/slam/local_mapper.h"
 #include "rgbd_graphslam/slam/loop_closer.h"
+#include "rgbd_graphslam/slam/stage_times.h"
 #include "rgbd_graphslam/slam/tracker.h"
-#include "stage_times.h"
 
 namespace rgbd_graphslam {
 namespace {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "rgbd_graphslam/slam/visual_slam.h"
-#include "thread_clock.h"
+#include "rgbd_graphslam/slam/thread_clock.h"
 
 namespace rgbd_graphslam {
 
