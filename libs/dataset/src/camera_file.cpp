@@ -23,6 +23,11 @@ const std::vector<std::string> mrpt_keys = {
     "distortion_model", "focal_length", "camera_name"};
 const std::vector<std::string> own_keys = {"depth_units", "depth_scale", "sensor_pose", "imu_pose"};
 
+/** MRPT takes a comment line with an equals sign for a key. */
+bool isComment(const std::string& key) {
+    return key.rfind("//", 0) == 0 || key[0] == '#';
+}
+
 bool contains(const std::vector<std::string>& list, const std::string& item) {
     return std::find(list.begin(), list.end(), item) != list.end();
 }
@@ -99,7 +104,7 @@ class CameraFile {
         std::vector<std::string> keys;
         config_.getAllKeys(section, keys);
         for (const auto& key : keys) {
-            if (!contains(mrpt_keys, key) && !contains(own_keys, key)) {
+            if (!isComment(key) && !contains(mrpt_keys, key) && !contains(own_keys, key)) {
                 refuse("unknown key '" + key + "'");
             }
         }

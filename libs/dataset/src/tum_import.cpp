@@ -6,9 +6,11 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
 
 #include "number_text.h"
@@ -116,30 +118,37 @@ void addTruth(const TumSequence& sequence, const CameraSetup& setup, SensorEntri
     }
 }
 
-/** Readings of accelerometer and gyroscope at the same stamp become one observation. */
+using ImuAxes = std::array<mrpt::obs::TIMUDataIndex, 3>;
+
+void set(mrpt::obs::CObservationIMU& imu, const ImuAxes& axes, const Eigen::Vector3d& value) {
+    for (int i = 0; i < 3; ++i) imu.set(axes[i], value[i]);
+}
+
+mrpt::obs::CObservationIMU::Ptr imuReading(const CameraSetup& setup, double stamp_s) {
+    auto imu = mrpt::obs::CObservationIMU::Create();
+    imu->sensorLabel = imu_label;
+    imu->timestamp = toMrptTime(stamp_s);
+    imu->sensorPose = toCPose3D(setup.T_base_sensor * setup.T_sensor_imu);
+    return imu;
+}
+
+/** Readings of accelerometer and gyroscope at the same stamp share an observation. */
 void addImu(const TumSequence& sequence, const CameraSetup& setup, SensorEntries& entries) {
     using namespace mrpt::obs;
-    std::map<long long, CObservationIMU::Ptr> by_stamp;
-    const auto readingAt = [&](double stamp_s) {
-        auto& imu = by_stamp[microseconds(stamp_s)];
-        if (!imu) {
-            imu = CObservationIMU::Create();
-            imu->sensorLabel = imu_label;
-            imu->timestamp = toMrptTime(stamp_s);
-            imu->sensorPose = toCPose3D(setup.T_base_sensor * setup.T_sensor_imu);
-        }
-        return imu;
-    };
-    const auto add = [&](const std::vector<StampedVector>& samples,
-                         const std::array<TIMUDataIndex, 3>& axes) {
-        for (const auto& sample : samples) {
-            const auto imu = readingAt(sample.stamp_s);
-            for (int i = 0; i < 3; ++i) imu->set(axes[i], sample.value[i]);
-        }
-    };
-    add(sequence.acceleration, {IMU_X_ACC, IMU_Y_ACC, IMU_Z_ACC});
-    add(sequence.angular_velocity, {IMU_WX, IMU_WY, IMU_WZ});
-    for (const auto& [stamp, imu] : by_stamp) entries.push_back(imu);
+    const ImuAxes linear = {IMU_X_ACC, IMU_Y_ACC, IMU_Z_ACC}, angular = {IMU_WX, IMU_WY, IMU_WZ};
+    std::map<long long, CObservationIMU::Ptr> without_angular;
+    for (const auto& sample : sequence.acceleration) {
+        const auto imu = imuReading(setup, sample.stamp_s);
+        set(*imu, linear, sample.value);
+        without_angular[microseconds(sample.stamp_s)] = imu;
+        entries.push_back(imu);
+    }
+    for (const auto& sample : sequence.angular_velocity) {
+        auto partner = without_angular.extract(microseconds(sample.stamp_s));
+        const auto imu = partner ? partner.mapped() : imuReading(setup, sample.stamp_s);
+        set(*imu, angular, sample.value);
+        if (!partner) entries.push_back(imu);
+    }
 }
 
 void addOdometry(const TumSequence& sequence, SensorEntries& entries) {
@@ -175,7 +184,6 @@ mrpt::obs::CObservationComment commentFor(const std::vector<FramePair>& pairs,
         if (color_us != depth_us) stamps[color_us] = depth_us;
     }
     mrpt::obs::CObservationComment comment;
-    comment.sensorLabel = "COMMENT";
     comment.timestamp = time;
     comment.text = toIniText(stamps);
     return comment;

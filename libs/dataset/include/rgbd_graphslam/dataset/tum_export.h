@@ -1,0 +1,34 @@
+/** Rawlog to TUM folder. */
+#pragma once
+#include <cstddef>
+#include <limits>
+#include <string>
+
+namespace rgbd_graphslam {
+
+struct ExportOptions {
+    /** Only what was recorded within these bounds, in s after the first RGB-D frame; frames count
+     * by their colour stamp. */
+    double from_s = -std::numeric_limits<double>::infinity();
+    double to_s = std::numeric_limits<double>::infinity();
+    /** Every n-th frame of that time. */
+    int every = 1;
+    /** Threads that encode images. */
+    int threads = 2;
+};
+
+struct ExportReport {
+    std::size_t frames = 0, imu = 0, odometry = 0, truth = 0;
+};
+
+/** Writes rgb/ and depth/ (PNG, or the original file where the rawlog refers to one), rgb.txt,
+ *  depth.txt, camera.ini, and where the rawlog has them groundtruth.txt, accelerometer.txt,
+ *  gyroscope.txt and odometry.txt. Importing the folder again gives the same pixels, depth, stamps
+ *  and readings. The lists are written last: a folder without rgb.txt is an unfinished export.
+ *  \param folder is made; must be empty if it exists
+ *  \throws Error when the rawlog has no frame in the bounds, is damaged, or `folder` cannot be used
+ */
+ExportReport exportTumSequence(const std::string& rawlog_path, const std::string& folder,
+                               const ExportOptions& options);
+
+}  // namespace rgbd_graphslam

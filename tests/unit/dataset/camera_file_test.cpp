@@ -1,0 +1,116 @@
+#include "rgbd_graphslam/dataset/camera_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mrpt/config/CConfigFile.h>
+#include <mrpt/img/TCamera.h>
+
+#include "../../support/tum_folder.h"
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+using ::testing::HasSubstr;
+
+void expectSame(const CameraSetup& a, const CameraSetup& b) {
+    EXPECT_EQ(a.camera.width, b.camera.width);
+    EXPECT_EQ(a.camera.height, b.camera.height);
+    EXPECT_EQ(a.camera.fx, b.camera.fx);
+    EXPECT_EQ(a.camera.fy, b.camera.fy);
+    EXPECT_EQ(a.camera.cx, b.camera.cx);
+    EXPECT_EQ(a.camera.cy, b.camera.cy);
+    EXPECT_EQ(a.camera.distortion, b.camera.distortion);
+    EXPECT_EQ(a.depth_units, b.depth_units);
+    EXPECT_EQ(a.depth_scale, b.depth_scale);
+    EXPECT_LT((a.T_base_sensor.R - b.T_base_sensor.R).norm(), 1e-12);
+    EXPECT_LT((a.T_base_sensor.t - b.T_base_sensor.t).norm(), 1e-12);
+    EXPECT_LT((a.T_sensor_imu.R - b.T_sensor_imu.R).norm(), 1e-12);
+    EXPECT_LT((a.T_sensor_imu.t - b.T_sensor_imu.t).norm(), 1e-12);
+}
+
+CameraSetup readText(const std::string& text) {
+    const TestFolder folder;
+    folder.write("camera.ini", text);
+    return readCameraFile(folder / "camera.ini");
+}
+
+const std::string minimal =
+    "[CAMERA_PARAMS]\nresolution = [640 480]\nfx = 525\nfy = 525\ncx = 319.5\ncy = 239.5\n";
+
+std::string complaintAbout(const std::string& text) {
+    try {
+        readText(text);
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "no error";
+}
+
+class ShippedCamera : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ShippedCamera, fileHoldsTheBuiltInCalibration) {
+    const std::string name = GetParam();
+    expectSame(readCameraFile(RGBD_SOURCE_DIR "/ini/camera_" + name + ".ini"), *cameraByName(name));
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ShippedCamera, ::testing::Values("fr1", "fr2", "fr3", "ros"));
+
+TEST(CameraFile, textReadsBackToTheSameNumbers) {
+    CameraSetup setup = *cameraByName("fr1");
+    setup.depth_units = 1000;
+    setup.depth_scale = 1.0 / 3;
+    setup.T_base_sensor = SE3(rotationExp({0.1, 0.3, -0.2}), {0.1, 0.02, 0.6});
+    setup.T_sensor_imu = SE3(rotationExp({1.1, -0.3, 0.2}), {0, 0.01, 0});
+    expectSame(readText(toIniText(setup)), setup);
+    expectSame(readText(toIniText(CameraSetup())), CameraSetup());
+}
+
+TEST(CameraFile, textIsUnderstoodByMrpt) {
+    const TestFolder folder;
+    folder.write("camera.ini", toIniText(*cameraByName("fr1")));
+    mrpt::img::TCamera camera;
+    camera.loadFromConfigFile("CAMERA_PARAMS", mrpt::config::CConfigFile(folder / "camera.ini"));
+    EXPECT_EQ(camera.fx(), 517.3);
+    EXPECT_EQ(camera.k3(), 1.1633);
+    EXPECT_EQ(camera.distortion, mrpt::img::DistortionModel::plumb_bob);
+}
+
+TEST(CameraFile, coefficientsCountWithoutTheNameOfTheModel) {
+    EXPECT_EQ(readText(minimal + "dist = [0.1 0 0 0 0]\n").camera.distortion[0], 0.1);
+    EXPECT_FALSE(readText(minimal).camera.hasDistortion());
+    EXPECT_FALSE(readText(minimal + "distortion_model = none\ndist = [0.1 0 0 0 0]\n")
+                     .camera.hasDistortion());
+}
+
+TEST(CameraFile, sensorPoseIsInMetresAndDegrees) {
+    const SE3 T = readText(minimal + "sensor_pose = [0.1 0 0.6 90 0 0]\n").T_base_sensor;
+    EXPECT_LT((T * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(0.1, 1, 0.6)).norm(), 1e-12);
+}
+
+TEST(CameraFile, mistakesAreNamed) {
+    EXPECT_THAT(complaintAbout("[OTHER]\nfx = 1\n"), HasSubstr("no section [CAMERA_PARAMS]"));
+    EXPECT_THAT(complaintAbout(minimal + "focal = 3\n"), HasSubstr("unknown key 'focal'"));
+    EXPECT_THAT(complaintAbout("[CAMERA_PARAMS]\nfx = 525\n"), HasSubstr("'fy' is missing"));
+    EXPECT_THAT(complaintAbout(minimal + "dist = [0.1 zero 0 0 0]\n"),
+                HasSubstr("'zero' is no number"));
+    EXPECT_THAT(complaintAbout(minimal + "dist = [0.1 0]\n"), HasSubstr("dist must be"));
+    EXPECT_THAT(complaintAbout(minimal + "distortion_model = kannala_brandt\ndist = [1 1 1 1]\n"),
+                HasSubstr("fish-eye"));
+    EXPECT_THAT(complaintAbout(minimal + "distortion_model = curly\n"),
+                HasSubstr("distortion_model must be"));
+    EXPECT_THAT(complaintAbout(minimal + "depth_units = -5\n"), HasSubstr("depth_units"));
+    EXPECT_THAT(complaintAbout(minimal + "sensor_pose = [1 2 3]\n"), HasSubstr("sensor_pose"));
+    EXPECT_THROW(readCameraFile("/nowhere/camera.ini"), Error);
+}
+
+TEST(CameraFile, folderNamesTellTheCamera) {
+    EXPECT_EQ(cameraByFolderName("rgbd_dataset_freiburg1_desk")->name, "fr1");
+    EXPECT_EQ(cameraByFolderName("rgbd_dataset_freiburg2_pioneer_360")->name, "fr2");
+    EXPECT_EQ(cameraByFolderName("TUM-FR3-office")->name, "fr3");
+    EXPECT_FALSE(cameraByFolderName("kitchen-300"));
+    EXPECT_FALSE(cameraByFolderName("fr10"));
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
