@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <vector>
 
+#include "png_check.h"
 #include "rgbd_graphslam/core/error.h"
 
 namespace rgbd_graphslam {
@@ -13,8 +14,6 @@ namespace {
 
 using Bytes = std::vector<unsigned char>;
 
-const Bytes png_start = {0x89, 'P', 'N', 'G'},
-            png_end = {'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
 const Bytes jpeg_start = {0xff, 0xd8}, jpeg_end = {0xff, 0xd9};
 const Bytes exr_start = {0x76, 0x2f, 0x31, 0x01};
 
@@ -30,22 +29,27 @@ bool startsWith(const Bytes& bytes, const Bytes& mark) {
     return bytes.size() >= mark.size() && std::equal(mark.begin(), mark.end(), bytes.begin());
 }
 
-/** Cameras pad files, hence not only at the very end. */
-bool endsNearly(const Bytes& bytes, const Bytes& mark) {
-    const std::size_t tail = std::min<std::size_t>(bytes.size(), 4096);
-    return std::search(bytes.end() - static_cast<std::ptrdiff_t>(tail), bytes.end(), mark.begin(),
-                       mark.end()) != bytes.end();
+/** The decoder fills what a cut JPEG file lacks with grey and calls it a success. Cameras pad their
+ *  files, hence the search. */
+bool isCutJpeg(const Bytes& bytes) {
+    if (!startsWith(bytes, jpeg_start)) return false;
+    const auto tail = static_cast<std::ptrdiff_t>(std::min<std::size_t>(bytes.size(), 4096));
+    return std::search(bytes.end() - tail, bytes.end(), jpeg_end.begin(), jpeg_end.end()) ==
+           bytes.end();
 }
 
-/** The decoders fill what a cut file lacks with grey and call it a success. */
-bool cutOff(const Bytes& bytes) {
-    return (startsWith(bytes, png_start) && !endsNearly(bytes, png_end)) ||
-           (startsWith(bytes, jpeg_start) && !endsNearly(bytes, jpeg_end));
+/** What is wrong with a file before it is decoded; empty when nothing is. */
+std::string damageOf(const Bytes& bytes) {
+    const PngState png = checkPng(bytes);
+    if (bytes.empty()) return "is empty or unreadable";
+    if (png == PngState::CutOff || isCutJpeg(bytes)) return "is cut off";
+    if (png == PngState::Damaged) return "is damaged, a check sum is wrong";
+    return "";
 }
 
 DecodedImage decoded(const std::string& path, const Bytes& bytes, int flags) {
-    if (bytes.empty()) return {{}, "'" + path + "' is empty or unreadable"};
-    if (cutOff(bytes)) return {{}, "'" + path + "' is cut off"};
+    const std::string damage = damageOf(bytes);
+    if (!damage.empty()) return {{}, "'" + path + "' " + damage};
     DecodedImage image;
     try {
         image.pixels = cv::imdecode(bytes, flags);

@@ -7,32 +7,16 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
-#include <array>
-#include <cstdint>
 #include <deque>
 #include <filesystem>
-#include <fstream>
 
+#include "gz_size.h"
 #include "rgbd_graphslam/core/error.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;
 using mrpt::obs::CObservation;
 namespace {
-
-/** Unpacked size modulo 2^32, which ends every gz file; nothing when it is no gz file. */
-std::optional<std::uint32_t> gzSize(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    std::array<unsigned char, 4> bytes{};
-    const auto read = [&] {
-        in.read(reinterpret_cast<char*>(bytes.data()), bytes.size());
-        return in.gcount() == 4;
-    };
-    if (!read() || bytes[0] != 0x1f || bytes[1] != 0x8b) return std::nullopt;
-    in.seekg(-4, std::ios::end);
-    if (!read()) return std::nullopt;
-    return bytes[0] | bytes[1] << 8 | bytes[2] << 16 | static_cast<std::uint32_t>(bytes[3]) << 24;
-}
 
 /** MRPT's messages are reports of many lines; the line that says what happened is enough. */
 std::string firstMessage(const std::exception& e) {

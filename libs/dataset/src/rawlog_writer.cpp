@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
+#include "gz_size.h"
 #include "number_text.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
@@ -18,16 +19,23 @@ namespace rgbd_graphslam {
 namespace fs = std::filesystem;
 namespace {
 
+/** The disk does not take it. */
+class WriteFailure : public std::exception {};
+
 class EmbeddedWriter : public RawlogWriter {
   public:
     explicit EmbeddedWriter(const std::string& path) {
         mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(
             true);  // process-wide; its default loses pixels
-        if (!file_.open(path)) throw Error("cannot open '" + path + "' for writing");
+        if (!file_.open(path)) throw WriteFailure();
     }
 
     void write(mrpt::obs::CObservation& observation) override {
-        mrpt::serialization::archiveFrom(file_) << observation;
+        try {
+            mrpt::serialization::archiveFrom(file_) << observation;
+        } catch (const std::exception&) {
+            throw WriteFailure();
+        }
     }
 
     void writeFrame(mrpt::obs::CObservation3DRangeScan& frame, const std::string&) override {
@@ -49,7 +57,7 @@ class CompactWriter : public EmbeddedWriter {
                     const std::string& color_file) override {
         const std::string name = frame.sensorLabel + "_" + stampText(toSeconds(frame.timestamp));
         storeColor(frame, name, color_file);
-        frame.rangeImage_convertToExternalStorage(name + "_depth.bin", images_.string() + "/");
+        storeDepth(frame, name);
         write(frame);
     }
 
@@ -59,13 +67,21 @@ class CompactWriter : public EmbeddedWriter {
         const std::string extension =
             color_file.empty() ? ".png" : fs::path(color_file).extension().string();
         const fs::path target = images_ / (name + "_color" + extension);
-        if (!color_file.empty()) {
-            fs::copy_file(color_file, target);
-        } else if (!cv::imwrite(target.string(), frame.intensityImage.asCvMatRef())) {
-            throw Error("cannot write '" + target.string() + "'", "check free space");
-        }
+        std::error_code failure;
+        const bool stored = color_file.empty()
+                                ? cv::imwrite(target.string(), frame.intensityImage.asCvMatRef())
+                                : fs::copy_file(color_file, target, failure);
+        if (!stored) throw WriteFailure();
         frame.intensityImage = mrpt::img::CImage();
         frame.intensityImage.setExternalStorage(target.filename().string());
+    }
+
+    void storeDepth(mrpt::obs::CObservation3DRangeScan& frame, const std::string& name) const {
+        const std::string file = name + "_depth.bin";
+        const auto pixel_bytes = frame.rangeImage.size() * sizeof(std::uint16_t);
+        frame.rangeImage_convertToExternalStorage(file, images_.string() + "/");
+        const auto stored_bytes = gzSize(images_ / file);
+        if (!stored_bytes || *stored_bytes < pixel_bytes) throw WriteFailure();
     }
 
     fs::path images_;
@@ -94,19 +110,20 @@ class TemporaryFolder {
     fs::path final_, path_;
 };
 
-/** Streams report a full disk only when they are closed, and MRPT's not even then. */
+/** Streams notice a full disk only when they are closed, and MRPT's say nothing then.
+ *  \return whether the file is whole */
 template <class Writer, class... Arguments>
-void fillFile(const std::string& path, const std::function<void(RawlogWriter&)>& fill,
+bool fillFile(const std::string& path, const std::function<void(RawlogWriter&)>& fill,
               Arguments&&... arguments) {
     std::uint64_t bytes = 0;
-    {
+    try {
         Writer writer(path, std::forward<Arguments>(arguments)...);
         fill(writer);
         bytes = writer.bytes();
+    } catch (const WriteFailure&) {
+        return false;
     }
-    if (fs::file_size(path) != bytes) {
-        throw Error("'" + path + "' was not written completely", "check free space");
-    }
+    return fs::file_size(path) == bytes;
 }
 
 }  // namespace
@@ -119,13 +136,10 @@ void writeRawlog(const std::string& path, RawlogStorage storage,
         throw Error("'" + path + "' is a folder", "name a file for the rawlog");
     }
     writeAtomically(path, [&](const std::string& temporary) {
-        if (storage == RawlogStorage::Embedded) {
-            fillFile<EmbeddedWriter>(temporary, fill);
-        } else {
-            const TemporaryFolder images(RawlogReader::imagesFolder(fs::absolute(path).string()));
-            fillFile<CompactWriter>(temporary, fill, images.path());
-            images.moveToFinalName();
-        }
+        if (storage == RawlogStorage::Embedded) return fillFile<EmbeddedWriter>(temporary, fill);
+        const TemporaryFolder images(RawlogReader::imagesFolder(fs::absolute(path).string()));
+        if (!fillFile<CompactWriter>(temporary, fill, images.path())) return false;
+        images.moveToFinalName();
         return true;
     });
 }
