@@ -1,0 +1,71 @@
+/** rgbd-synth: films synthetic RGB-D sequences with exact truth. */
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/synth/sequence.h"
+
+using namespace rgbd_graphslam;
+
+namespace {
+void list() {
+    for (const synth::Scenario& scenario : synth::scenarios())
+        std::printf("%-14s %5d frames%s  %s\n", scenario.name.c_str(), scenario.frames,
+                    scenario.sessions > 1 ? ", 2 sessions" : "            ",
+                    scenario.about.c_str());
+}
+
+void setSize(const std::string& text, synth::FilmOptions& options) {
+    char rest = 0;
+    if (std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &rest) != 2 ||
+        options.width < 64 || options.height < 48 || options.width > 4096 || options.height > 4096)
+        throw Error("--size " + text + " is no size from 64x48 to 4096x4096", "write e.g. 640x480");
+}
+
+void report(const synth::FilmSummary& film, const std::string& folder) {
+    std::printf("%s: %d frames, %.1f s, %.2f m, at most %.2f m/s and %.0f deg/s\n", folder.c_str(),
+                film.frames, film.duration_s, film.path_m, film.max_speed,
+                film.max_turn_rate * 180 / std::acos(-1.0));
+}
+}  // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app(
+        "Films synthetic RGB-D sequences with exact truth, in the layout of the TUM RGB-D "
+        "benchmark.");
+    synth::FilmOptions options;
+    std::string scenario, folder, size = "640x480", noise = "kinect";
+    bool list_only = false, quiet = false, verbose = false;
+    app.add_option("scenario", scenario, "see --list");
+    app.add_option("out_dir", folder, "new folder for the sequence");
+    app.add_flag("--list", list_only, "describe the scenarios");
+    app.add_option("--frames", options.frames, "the first N frames (default: the whole scenario)")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--seed", options.seed, "of textures, trembling and noise")
+        ->capture_default_str();
+    app.add_option("--noise", noise, "sensor model")
+        ->check(CLI::IsMember({"kinect", "none"}))
+        ->capture_default_str();
+    app.add_option("--size", size, "of the pictures; the field of view stays")
+        ->capture_default_str();
+    app.add_option("--registration-error", options.registration_error_px,
+                   "shift of depth against colour, pixels");
+    app.add_option("--session", options.session, "of a scenario with several")
+        ->capture_default_str();
+    app.add_flag("--quiet", quiet, "no progress");
+    app.add_flag("--verbose", verbose, "more messages");
+    app.set_version_flag("--version", RGBD_VERSION);
+    CLI11_PARSE(app, argc, argv);
+    return runMain("rgbd-synth", [&] {
+        setVerbosity(quiet ? Verbosity::Quiet : verbose ? Verbosity::Verbose : Verbosity::Normal);
+        if (list_only) return list(), 0;
+        if (scenario.empty() || folder.empty())
+            throw Error("scenario or folder is missing", "see rgbd-synth --help");
+        options.noise = noise == "kinect";
+        setSize(size, options);
+        report(synth::film(synth::findScenario(scenario), options, folder), folder);
+        return 0;
+    });
+}

@@ -1,0 +1,46 @@
+/** The scenarios: a place, a motion through it and what makes it hard. */
+#pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/synth/motion.h"
+#include "rgbd_graphslam/synth/scene.h"
+
+namespace rgbd_graphslam::synth {
+
+/** Brightness of the colour camera at a time. */
+struct Exposure {
+    double brightness = 1;     // of the picture
+    double gain = 1;           // of the amplifier, which multiplies the noise
+    double shutter_s = 0.011;  // time over which motion blurs
+};
+
+/** One session of a scenario, ready to be filmed. */
+struct World {
+    Scene scene;
+    Motion motion;
+    std::function<Exposure(double t)> exposure;
+    /** Pose of each of scene.figures at a time. */
+    std::vector<std::function<SE3(double)>> figure_poses;
+    /** Times [from, to) at which the camera is covered. */
+    std::vector<std::pair<double, double>> covered;
+};
+
+struct Scenario {
+    std::string name;
+    std::string about;
+    int sessions = 1;
+    /** Frames when the user asks for no number. */
+    int frames = 450;
+    /** \param session from 1 \param seed of everything random */
+    std::function<World(int session, std::uint64_t seed)> build;
+};
+
+/** All scenarios, in the order in which they are listed. */
+const std::vector<Scenario>& scenarios();
+
+/** \throws Error that lists the names when there is none of this name */
+const Scenario& findScenario(const std::string& name);
+
+}  // namespace rgbd_graphslam::synth

@@ -1,0 +1,44 @@
+/** Films a scenario and writes it as a folder in the layout of the TUM RGB-D benchmark. */
+#pragma once
+#include <string>
+
+#include "rgbd_graphslam/geometry/camera.h"
+#include "rgbd_graphslam/synth/scenario.h"
+
+namespace rgbd_graphslam::synth {
+
+struct FilmOptions {
+    int frames = 0;  // 0: the scenario's own number
+    std::uint64_t seed = 1;
+    /** false: exact depth, no colour noise, no blur, colour and depth at the same instants. */
+    bool noise = true;
+    int width = 640, height = 480;
+    /** Depth pictures are shifted by this along x, as by a wrong calibration. */
+    double registration_error_px = 0;
+    int session = 1;
+};
+
+/** The camera of a sequence: 525 pixels of focal length at 640 x 480, scaled to other widths. */
+Camera synthCamera(int width, int height);
+
+/** Times of frame i in a sequence of 30 Hz, seconds; they begin at 1000 s, to the microsecond.
+ *  Depth lags or leads by up to 16 ms when there is noise. */
+double colorStamp(const FilmOptions& options, int frame);
+double depthStamp(const FilmOptions& options, int frame);
+
+/** What was filmed. */
+struct FilmSummary {
+    int frames = 0;
+    double duration_s = 0;
+    double path_m = 0;
+    double max_speed = 0;      // m/s
+    double max_turn_rate = 0;  // rad/s
+};
+
+/** Renders all frames and writes rgb/, depth/, rgb.txt, depth.txt, groundtruth.txt,
+ *  accelerometer.txt, gyroscope.txt, odometry.txt (planar robots only), camera.ini and surface.ply.
+ *  The bytes depend on scenario and options alone. Memory does not grow with the frames.
+ *  \throws Error when the folder holds frames already or cannot be written */
+FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std::string& folder);
+
+}  // namespace rgbd_graphslam::synth

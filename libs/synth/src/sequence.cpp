@@ -1,0 +1,193 @@
+#include "rgbd_graphslam/synth/sequence.h"
+
+#include <cmath>
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "background_jobs.h"
+#include "rgbd_graphslam/core/atomic_file.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/progress.h"
+#include "rgbd_graphslam/synth/renderer.h"
+#include "rgbd_graphslam/synth/sensor_model.h"
+#include "sequence_files.h"
+
+namespace rgbd_graphslam::synth {
+
+namespace {
+enum Purpose : std::uint64_t { kColorNoise = 10, kDepthNoise = 11, kStampJitter = 12 };
+
+double toMicroseconds(double stamp_s) {
+    return std::round(stamp_s * 1e6) / 1e6;
+}
+
+void writePicture(const std::string& path, const cv::Mat& picture) {
+    if (!cv::imwrite(path, picture, {cv::IMWRITE_PNG_COMPRESSION, 1}))
+        throw Error("cannot write " + path, "check free space and permissions");
+}
+
+/** Films one session frame by frame: renders here, spoils and writes in the background. */
+class Film {
+  public:
+    Film(const World& world, const FilmOptions& options, const std::string& folder)
+        : world_(world),
+          options_(options),
+          folder_(folder),
+          camera_(synthCamera(options.width, options.height)),
+          renderer_(world.scene, camera_) {}
+
+    void shoot(int frame) {
+        shootColor(frame, colorStamp(options_, frame));
+        shootDepth(frame, depthStamp(options_, frame));
+    }
+    void finish() { jobs_.finish(); }
+
+  private:
+    bool coveredAt(double t) const {
+        for (const auto& [from, to] : world_.covered)
+            if (t >= from && t < to) return true;
+        return false;
+    }
+
+    void placeFigures(double t) {
+        for (std::size_t i = 0; i < world_.figure_poses.size(); ++i)
+            renderer_.placeFigure(static_cast<int>(i), world_.figure_poses[i](t));
+    }
+
+    /** Pixels that the picture of a point 1.5 m ahead travels between two times. */
+    double blur_px(double from, double to) const {
+        const SE3 moved = world_.motion.T_world_cam(from).inverse() * world_.motion.T_world_cam(to);
+        return camera_.fx * (moved.angle() + moved.t.norm() / 1.5);
+    }
+
+    /** Mean of pictures over the shutter time, each shifted by another part of a pixel: motion
+     *  blur and anti-aliasing in one. \return CV_32FC3 */
+    cv::Mat exposed(double t, double shutter_s) {
+        const double begin = t - shutter_s / 2;
+        const int count = std::min(
+            16, std::max(4, static_cast<int>(std::ceil(blur_px(begin, begin + shutter_s)))));
+        cv::Mat sum = cv::Mat::zeros(camera_.height, camera_.width, CV_32FC3);
+        for (int i = 0; i < count; ++i) {
+            const double at = begin + shutter_s * (i + 0.5) / count;
+            placeFigures(at);
+            // A rank-1 lattice spreads the shifts evenly over the pixel.
+            const Eigen::Vector2d shift((i + 0.5) / count - 0.5,
+                                        std::fmod(0.618034 * (i + 0.5), 1.0) - 0.5);
+            cv::accumulate(renderer_.color(world_.motion.T_world_cam(at), shift), sum);
+        }
+        return sum * (1.0 / count);
+    }
+
+    void shootColor(int frame, double stamp) {
+        const double t = stamp - kFirstStamp_s;
+        const Exposure exposure = world_.exposure(t);
+        cv::Mat seen;
+        if (coveredAt(t))
+            seen = cv::Mat(camera_.height, camera_.width, CV_32FC3, cv::Scalar(4, 3, 5));
+        else
+            seen = exposed(t, options_.noise ? exposure.shutter_s : 0);
+        jobs_.add([=, options = options_, path = folder_ + "/" + pictureName("rgb", stamp)] {
+            const ColorSensorModel model =
+                options.noise ? ColorSensorModel{} : ColorSensorModel{0, 0};
+            writePicture(path, senseColor(seen, exposure.brightness, exposure.gain, model,
+                                          Random::of(options.seed, kColorNoise, frame)));
+        });
+    }
+
+    void shootDepth(int frame, double stamp) {
+        const double t = stamp - kFirstStamp_s;
+        placeFigures(t);
+        cv::Mat seen;
+        if (coveredAt(t))
+            seen = cv::Mat::zeros(camera_.height, camera_.width, CV_32FC1);
+        else
+            seen =
+                renderer_.depth(world_.motion.T_world_cam(t), {options_.registration_error_px, 0});
+        jobs_.add([=, options = options_, camera = camera_,
+                   path = folder_ + "/" + pictureName("depth", stamp)] {
+            const Random random = Random::of(options.seed, kDepthNoise, frame);
+            const cv::Mat readings =
+                options.noise ? senseDepth(seen, camera, DepthSensorModel{}, random) : seen;
+            writePicture(path, toDepthUnits(readings));
+        });
+    }
+
+    const World& world_;
+    const FilmOptions options_;
+    const std::string folder_;
+    const Camera camera_;
+    Renderer renderer_;
+    BackgroundJobs jobs_;
+};
+
+void makeEmptyFolder(const std::string& folder) {
+    makeWritableFolder(folder);
+    if (!std::filesystem::is_empty(folder))
+        throw Error(folder + " is not empty", "remove what is in it or name a new folder");
+}
+
+FilmSummary summary(const Motion& motion, int frames) {
+    FilmSummary result;
+    result.frames = frames;
+    result.duration_s = frames / 30.0;
+    for (int i = 1; i < frames; ++i) {
+        const SE3 moved =
+            motion.T_world_cam((i - 1) / 30.0).inverse() * motion.T_world_cam(i / 30.0);
+        result.path_m += moved.t.norm();
+        result.max_speed = std::max(result.max_speed, 30 * moved.t.norm());
+        result.max_turn_rate = std::max(result.max_turn_rate, 30 * moved.angle());
+    }
+    return result;
+}
+}  // namespace
+
+Camera synthCamera(int width, int height) {
+    Camera camera;
+    const double scale = width / 640.0;
+    camera.width = width;
+    camera.height = height;
+    camera.fx = camera.fy = 525 * scale;
+    camera.cx = (width - 1) / 2.0;
+    camera.cy = (height - 1) / 2.0;
+    return camera;
+}
+
+double colorStamp(const FilmOptions& options, int frame) {
+    const double jitter =
+        options.noise ? Random::of(options.seed, kStampJitter, frame).uniform(-1e-3, 1e-3) : 0;
+    return toMicroseconds(kFirstStamp_s + frame / 30.0 + jitter);
+}
+
+double depthStamp(const FilmOptions& options, int frame) {
+    const double lag = options.noise ? 0.0155 * std::sin(2 * std::acos(-1.0) * frame / 170.0) : 0;
+    return toMicroseconds(colorStamp(options, frame) + lag);
+}
+
+FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std::string& folder) {
+    if (options.session < 1 || options.session > scenario.sessions)
+        throw Error(
+            "scenario '" + scenario.name + "' has no session " + std::to_string(options.session),
+            "it has " + std::to_string(scenario.sessions));
+    const int frames = options.frames > 0 ? options.frames : scenario.frames;
+    makeEmptyFolder(folder);
+    makeWritableFolder(folder + "/rgb");
+    makeWritableFolder(folder + "/depth");
+    const World world = scenario.build(options.session, options.seed);
+    writeSurface(folder + "/surface.ply", world.scene);
+    const Camera camera = synthCamera(options.width, options.height);
+    writeCameraIni(folder, camera, static_cast<bool>(world.motion.T_world_base));
+    writeMotionFiles(folder, options, world.motion, frames);
+
+    Film shooting(world, options, folder);
+    Progress progress("filming " + scenario.name, frames);
+    for (int frame = 0; frame < frames; ++frame) {
+        shooting.shoot(frame);
+        progress.update(frame + 1);
+    }
+    shooting.finish();
+    writePictureLists(folder, options, frames);
+    return summary(world.motion, frames);
+}
+
+}  // namespace rgbd_graphslam::synth

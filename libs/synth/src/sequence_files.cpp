@@ -1,0 +1,148 @@
+#include "sequence_files.h"
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+
+#include "rgbd_graphslam/core/atomic_file.h"
+#include "rgbd_graphslam/synth/robot_sensors.h"
+
+namespace rgbd_graphslam::synth {
+
+namespace {
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+    char line[400];
+    std::snprintf(line, sizeof line, format, values...);
+    return line;
+}
+
+/** Streams a text file, so that a long one needs no memory. */
+void writeStream(const std::string& path, const std::function<void(std::ostream&)>& write) {
+    writeAtomically(path, [&](const std::string& temporary) {
+        std::ofstream out(temporary, std::ios::binary);
+        write(out);
+        return static_cast<bool>(out.flush());
+    });
+}
+
+/** Times of a sensor of the given rate that cover all frames with a margin. */
+void forEachReading(double hertz, int frames, const std::function<void(double t, long i)>& read) {
+    const long count = std::lround((frames / 30.0 + 0.2) * hertz);
+    for (long i = 0; i <= count; ++i) read(i / hertz - 0.1, i);
+}
+
+void writeList(const std::string& path, const char* title, const char* kind, int frames,
+               const std::function<double(int)>& stamp) {
+    writeStream(path, [&](std::ostream& out) {
+        out << "# " << title << "\n# timestamp filename\n";
+        for (int i = 0; i < frames; ++i)
+            out << formatted("%.6f ", stamp(i)) << pictureName(kind, stamp(i)) << '\n';
+    });
+}
+
+void writeTruth(const std::string& path, const Motion& motion, int frames) {
+    writeStream(path, [&](std::ostream& out) {
+        out << "# true poses of the colour camera's optical frame, world z up, floor at z = 0\n"
+               "# timestamp tx ty tz qx qy qz qw\n";
+        forEachReading(100, frames, [&](double t, long) {
+            const SE3 pose = motion.T_world_cam(t);
+            const Eigen::Quaterniond q = pose.quaternion();
+            out << formatted("%.6f %.9f %.9f %.9f %.9f %.9f %.9f %.9f\n", kFirstStamp_s + t,
+                             pose.t.x(), pose.t.y(), pose.t.z(), q.x(), q.y(), q.z(), q.w());
+        });
+    });
+}
+
+void writeVectors(const std::string& path, const char* header, int frames,
+                  const std::function<Eigen::Vector3d(double t, long i)>& read) {
+    writeStream(path, [&](std::ostream& out) {
+        out << header;
+        forEachReading(200, frames, [&](double t, long i) {
+            const Eigen::Vector3d value = read(t, i);
+            out << formatted("%.6f %.6f %.6f %.6f\n", kFirstStamp_s + t, value.x(), value.y(),
+                             value.z());
+        });
+    });
+}
+
+void writeOdometry(const std::string& path, const FilmOptions& options, const Motion& motion,
+                   int frames) {
+    const WheelModel model = options.noise ? WheelModel{} : WheelModel{0, 0, 0, 0, 0};
+    Odometer odometer(motion, model, options.seed);
+    writeStream(path, [&](std::ostream& out) {
+        out << "# wheel odometry of the planar robot's base\n# timestamp x y theta\n";
+        forEachReading(20, frames, [&](double t, long) {
+            const Eigen::Vector3d pose = odometer.advance(t);
+            out << formatted("%.6f %.6f %.6f %.6f\n", kFirstStamp_s + t, pose.x(), pose.y(),
+                             pose.z());
+        });
+    });
+}
+
+template <class Value>
+void put(std::ostream& out, Value value) {
+    out.write(reinterpret_cast<const char*>(&value), sizeof value);
+}
+}  // namespace
+
+std::string pictureName(const char* kind, double stamp_s) {
+    return formatted("%s/%.6f.png", kind, stamp_s);
+}
+
+void writePictureLists(const std::string& folder, const FilmOptions& options, int frames) {
+    writeList(folder + "/rgb.txt", "color images", "rgb", frames,
+              [&](int i) { return colorStamp(options, i); });
+    writeList(folder + "/depth.txt", "depth maps", "depth", frames,
+              [&](int i) { return depthStamp(options, i); });
+}
+
+void writeMotionFiles(const std::string& folder, const FilmOptions& options, const Motion& motion,
+                      int frames) {
+    writeTruth(folder + "/groundtruth.txt", motion, frames);
+    const InertialModel model = options.noise ? InertialModel{} : InertialModel{0, 0, 0, 0};
+    const InertialUnit unit(motion, model, options.seed);
+    writeVectors(folder + "/accelerometer.txt",
+                 "# specific force in the colour camera's optical frame, m/s^2\n"
+                 "# timestamp ax ay az\n",
+                 frames, [&](double t, long i) { return unit.read(t, i).specific_force; });
+    writeVectors(folder + "/gyroscope.txt",
+                 "# angular rate in the colour camera's optical frame, rad/s\n"
+                 "# timestamp wx wy wz\n",
+                 frames, [&](double t, long i) { return unit.read(t, i).angular_rate; });
+    if (motion.T_world_base) writeOdometry(folder + "/odometry.txt", options, motion, frames);
+}
+
+void writeCameraIni(const std::string& folder, const Camera& camera, bool on_robot) {
+    std::string text = formatted(
+        "[CAMERA_PARAMS]\n"
+        "resolution = [%d %d]\n"
+        "cx = %.6f\ncy = %.6f\nfx = %.6f\nfy = %.6f\n"
+        "dist = [0 0 0 0 0]\n"
+        "depth_units = 5000\n",
+        camera.width, camera.height, camera.cx, camera.cy, camera.fx, camera.fy);
+    const Eigen::Vector3d at = on_robot ? robotCamera().t : Eigen::Vector3d::Zero();
+    text += formatted("sensor_pose = [%.3f %.3f %.3f 0 0 0]\n", at.x(), at.y(), at.z());
+    writeTextAtomically(folder + "/camera.ini", text);
+}
+
+void writeSurface(const std::string& path, const Scene& scene) {
+    writeStream(path, [&](std::ostream& out) {
+        out << "ply\nformat binary_little_endian 1.0\ncomment true surface, metres, z up\n"
+            << "element vertex " << 4 * scene.quads.size()
+            << "\nproperty float x\nproperty float y\nproperty float z\n"
+            << "element face " << 2 * scene.quads.size()
+            << "\nproperty list uchar int vertex_indices\nend_header\n";
+        for (const Quad& quad : scene.quads)
+            for (const Eigen::Vector3d& corner : quad.corners)
+                for (int axis = 0; axis < 3; ++axis) put(out, static_cast<float>(corner[axis]));
+        for (std::size_t i = 0; i < scene.quads.size(); ++i)
+            for (const auto& triangle :
+                 {std::array<int, 3>{0, 1, 2}, std::array<int, 3>{0, 2, 3}}) {
+                put(out, std::uint8_t{3});
+                for (int corner : triangle) put(out, static_cast<std::int32_t>(4 * i) + corner);
+            }
+    });
+}
+
+}  // namespace rgbd_graphslam::synth

@@ -1,0 +1,23 @@
+/** The text and geometry files of a sequence: everything but the pictures. */
+#pragma once
+#include <string>
+
+#include "rgbd_graphslam/synth/sequence.h"
+
+namespace rgbd_graphslam::synth {
+
+/** Time 0 of a motion, in stamps (s). */
+constexpr double kFirstStamp_s = 1000;
+
+/** `rgb/1000.033333.png` for a stamp. \param kind "rgb" or "depth" */
+std::string pictureName(const char* kind, double stamp_s);
+
+void writePictureLists(const std::string& folder, const FilmOptions& options, int frames);
+/** Truth at 100 Hz, inertial readings at 200 Hz and, for planar robots, odometry at 20 Hz. */
+void writeMotionFiles(const std::string& folder, const FilmOptions& options, const Motion& motion,
+                      int frames);
+void writeCameraIni(const std::string& folder, const Camera& camera, bool on_robot);
+/** The faces that stand still, as triangles, binary PLY. */
+void writeSurface(const std::string& path, const Scene& scene);
+
+}  // namespace rgbd_graphslam::synth
