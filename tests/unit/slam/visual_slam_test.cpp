@@ -1,0 +1,139 @@
+#include "rgbd_graphslam/slam/visual_slam.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "rgbd_graphslam/core/error.h"
+#include "synthetic_world.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr double pi = 3.14159265358979;
+
+struct SlamRun {
+    std::vector<TrackedFrame> frames;
+    std::vector<SE3> truth;
+    int loops = 0;
+    int keyframes = 0;
+
+    /** Largest distance between estimate and truth, both seen from the first frame, m. */
+    double largestError() const {
+        double worst = 0;
+        const SE3 T_first = frames[0].T_world_cam * truth[0].inverse();
+        for (std::size_t i = 0; i < frames.size(); ++i) {
+            if (frames[i].origin == FrameOrigin::Lost) continue;
+            worst = std::max(worst, (frames[i].T_world_cam.t - (T_first * truth[i]).t).norm());
+        }
+        return worst;
+    }
+};
+
+/** \param poses T_world_cam a frame; none = a covered camera */
+SlamRun runOn(const std::vector<std::optional<SE3>>& poses, SlamOptions options = {}) {
+    SyntheticWorld world(24000);
+    const Camera camera;
+    VisualSlam slam(options, camera);
+    SlamRun run;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        Frame frame;
+        frame.grid = KeypointGrid({}, camera.width, camera.height);
+        if (poses[i]) frame = world.view(*poses[i], 0, camera);
+        frame.stamp_s = 0.033 * (i + 1);
+        const TrackedFrame tracked = slam.track(std::move(frame));
+        run.truth.push_back(poses[i].value_or(SE3()));
+        if (!tracked.keyframe) continue;
+        ++run.keyframes;
+        if (slam.findLoops(*tracked.keyframe).empty()) continue;
+        ++run.loops;
+        PoseGraph graph = slam.poseGraph();
+        optimizePoseGraph(graph, options.pose_graph);
+        slam.correct(graph.nodes);
+    }
+    slam.finish();
+    run.frames = slam.frames();
+    return run;
+}
+
+std::vector<std::optional<SE3>> circle(double turns, int frames) {
+    std::vector<std::optional<SE3>> poses;
+    for (int i = 0; i < frames; ++i) poses.emplace_back(onCircle(2 * pi * turns * i / frames));
+    return poses;
+}
+
+long lost(const SlamRun& run) {
+    return std::count_if(run.frames.begin(), run.frames.end(),
+                         [](const TrackedFrame& f) { return f.origin == FrameOrigin::Lost; });
+}
+
+TEST(VisualSlam, tracksEveryFrameOfAnExactWorldToMillimetres) {
+    const SlamRun run = runOn(circle(0.4, 100));
+    EXPECT_EQ(lost(run), 0);
+    EXPECT_LT(run.largestError(), 0.01);
+    EXPECT_GT(run.keyframes, 5);
+}
+
+TEST(VisualSlam, closesTheLoopOfAFullTurn) {
+    const SlamRun run = runOn(circle(1.15, 260));
+    EXPECT_EQ(lost(run), 0);
+    EXPECT_GE(run.loops, 1);
+    EXPECT_LT(run.largestError(), 0.015);
+}
+
+TEST(VisualSlam, comesBackAfterTheCameraWasCovered) {
+    auto poses = circle(0.3, 80);
+    for (int i = 40; i < 50; ++i) poses[i].reset();
+    for (int i = 50; i < 80; ++i) poses[i] = onCircle(2 * pi * 0.3 * (90 - i) / 80);
+    const SlamRun run = runOn(poses);
+    for (int i = 40; i < 50; ++i) EXPECT_EQ(run.frames[i].origin, FrameOrigin::Lost) << i;
+    EXPECT_EQ(run.frames[50].origin, FrameOrigin::Recovered);
+    EXPECT_EQ(run.frames[60].origin, FrameOrigin::Tracked);
+    EXPECT_LT(run.largestError(), 0.01);
+}
+
+TEST(VisualSlam, givesTheSameBitsTwice) {
+    const SlamRun a = runOn(circle(0.3, 60)), b = runOn(circle(0.3, 60));
+    ASSERT_EQ(a.frames.size(), b.frames.size());
+    for (std::size_t i = 0; i < a.frames.size(); ++i) {
+        EXPECT_EQ((a.frames[i].T_world_cam.t - b.frames[i].T_world_cam.t).norm(), 0);
+        EXPECT_EQ((a.frames[i].T_world_cam.R - b.frames[i].T_world_cam.R).norm(), 0);
+    }
+}
+
+TEST(VisualSlam, waitsForAFirstFrameWithDepth) {
+    std::vector<std::optional<SE3>> poses(3);
+    for (int i = 0; i < 5; ++i) poses.emplace_back(onCircle(0.01 * i));
+    const SlamRun run = runOn(poses);
+    EXPECT_EQ(lost(run), 3);
+    EXPECT_EQ(run.frames[3].keyframe, 0);
+}
+
+TEST(VisualSlam, refusesStampsThatDoNotRise) {
+    SyntheticWorld world;
+    const Camera camera;
+    VisualSlam slam(SlamOptions{}, camera);
+    slam.track(world.view(onCircle(0), 1.0, camera));
+    EXPECT_THROW(slam.track(world.view(onCircle(0), 1.0, camera)), Error);
+}
+
+TEST(VisualSlam, odometryEdgeIsTheRelativePoseWithPlausibleInformation) {
+    SyntheticWorld world(24000);
+    const Camera camera;
+    VisualSlam slam(SlamOptions{}, camera);
+    for (int i = 0; i < 60; ++i) slam.track(world.view(onCircle(0.02 * i), i + 1.0, camera));
+    slam.finish();
+    const auto keyframes = slam.keyframes();
+    ASSERT_GE(keyframes.size(), 3u);
+    const PoseEdge edge = slam.odometryEdge(2);
+    const SE3 expected = keyframes[1].T_world_cam.inverse() * keyframes[2].T_world_cam;
+    EXPECT_LT(edge.T_from_to.minus(expected).norm(), 1e-9);
+    const Matrix6d covariance = edge.information.inverse();
+    for (int i = 0; i < 6; ++i) {
+        EXPECT_GT(std::sqrt(covariance(i, i)), 1e-5);
+        EXPECT_LT(std::sqrt(covariance(i, i)), 0.02);
+    }
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
