@@ -1,190 +1,210 @@
-/** rgbd-eval: how good trajectories, maps and associations are. */
+/** rgbd-eval: how good trajectories and maps are. */
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
-#include <set>
 
 #include "rgbd_graphslam/core/console.h"
-#include "rgbd_graphslam/core/error.h"
-#include "rgbd_graphslam/evaluation/plots.h"
-#include "rgbd_graphslam/evaluation/report.h"
-#include "rgbd_graphslam/evaluation/stamped_list.h"
+#include "rgbd_graphslam/evaluation/commands.h"
 
+namespace rgbd_graphslam {
 namespace {
-using namespace rgbd_graphslam;
 
-/** What `ate` and `rpe` have in common. */
-struct TrajectoryRequest {
-    std::vector<std::string> files;  // estimates, then the truth
-    ReportFormat format = ReportFormat::Text;
-    bool per_axis = false;
-    std::string errors_plot, distribution_plot;
-
-    std::vector<std::string> estimates() const { return {files.begin(), files.end() - 1}; }
-    PerAxis perAxis() const { return per_axis ? PerAxis::Yes : PerAxis::No; }
-};
-
-struct AteRequest : TrajectoryRequest {
-    AteOptions options;
-    std::string plot;
-    PlotPlane plane = PlotPlane::XY;
-};
-
-struct RpeRequest : TrajectoryRequest {
-    RpeOptions options;
-};
-
-struct AssociateRequest {
-    std::string first, second;
-    AssociationOptions options;
-};
-
-/** Names of the estimates in tables: short ones, unless these would be the same. */
-std::vector<std::string> labelsOf(const std::vector<std::string>& paths) {
-    std::vector<std::string> stems;
-    for (const auto& path : paths) stems.push_back(std::filesystem::path(path).stem());
-    const std::set<std::string> distinct(stems.begin(), stems.end());
-    return distinct.size() == paths.size() ? stems : paths;
+void print(const std::string& text) {
+    std::fputs(text.c_str(), stdout);
 }
 
-/** Calls evaluate(); its errors name the file. */
-template <class Evaluate>
-auto naming(const std::string& file, Evaluate evaluate) {
-    try {
-        return evaluate();
-    } catch (const Error& e) {
-        throw Error(file + ": " + e.what());
-    }
-}
-
-void print(const std::vector<Report>& reports, ReportFormat format) {
-    std::fputs(rgbd_graphslam::format(reports, format).c_str(), stdout);
-}
-
-void plotErrors(const TrajectoryRequest& request, const std::vector<ErrorPanel>& panels) {
-    if (!request.errors_plot.empty()) plotErrorsOverTime(panels, request.errors_plot);
-    if (!request.distribution_plot.empty())
-        plotErrorDistribution(panels, request.distribution_plot);
-}
-
-void runAte(const AteRequest& request) {
-    const auto truth = readTumTrajectory(request.files.back());
-    const auto labels = labelsOf(request.estimates());
-    std::vector<EvaluatedAte> evaluated;
-    std::vector<Report> reports;
-    for (std::size_t k = 0; k < labels.size(); ++k) {
-        const auto estimate = readTumTrajectory(request.files[k]);
-        const auto result =
-            naming(request.files[k], [&] { return evaluateAte(estimate, truth, request.options); });
-        evaluated.push_back({labels[k], estimate, result});
-        reports.push_back(reportOf(labels[k], result, request.perAxis()));
-    }
-    print(reports, request.format);
-    if (!request.plot.empty()) plotTrajectories(truth, evaluated, request.plane, request.plot);
-    plotErrors(request, errorPanels(evaluated));
-}
-
-void runRpe(const RpeRequest& request) {
-    const auto truth = readTumTrajectory(request.files.back());
-    const auto labels = labelsOf(request.estimates());
-    std::vector<EvaluatedRpe> evaluated;
-    std::vector<Report> reports;
-    for (std::size_t k = 0; k < labels.size(); ++k) {
-        const auto result = naming(request.files[k], [&] {
-            return evaluateRpe(readTumTrajectory(request.files[k]), truth, request.options);
-        });
-        evaluated.push_back({labels[k], result});
-        reports.push_back(reportOf(labels[k], result, request.perAxis()));
-    }
-    print(reports, request.format);
-    const auto style =
-        request.options.fixed_delta ? ErrorPanel::Style::Lines : ErrorPanel::Style::Points;
-    plotErrors(request, errorPanels(evaluated, style));
-}
-
-void runAssociate(const AssociateRequest& request) {
-    std::fputs(associationText(readStampedList(request.first), readStampedList(request.second),
-                               request.options)
-                   .c_str(),
-               stdout);
-}
-
-void describeTrajectories(CLI::App& command, TrajectoryRequest& request) {
-    command
-        .add_option("files", request.files,
-                    "EST... TRUTH: estimates, then the truth (TUM text files)")
-        ->required()
-        ->expected(2, -1);
+void declareFormat(CLI::App& command, ReportFormat& format) {
     const std::map<std::string, ReportFormat> formats{{"text", ReportFormat::Text},
                                                       {"csv", ReportFormat::Csv},
                                                       {"json", ReportFormat::Json},
                                                       {"latex", ReportFormat::Latex}};
-    command.add_option("--format", request.format, "of the table: text, csv, json or latex")
-        ->transform(CLI::CheckedTransformer(formats));
-    command.add_flag("--per-axis", request.per_axis, "errors along x, y and z too");
-    command.add_option("--plot-errors", request.errors_plot, "errors over time (.png or .svg)");
+    command.add_option("--format", format, "Of the table: text, csv, json or latex [text]")
+        ->transform(CLI::CheckedTransformer(formats).description(""))
+        ->type_name("NAME");
+}
+
+void declareTrajectories(CLI::App& command, TrajectoryRequest& request) {
+    command
+        .add_option("EST... TRUTH", request.files,
+                    "Estimates, then the truth: TUM text files; the truth may be a .rawlog")
+        ->required()
+        ->expected(2, CLI::detail::expected_max_vector_size);
+    declareFormat(command, request.format);
+    command.add_flag("--per-axis", request.per_axis, "Errors along x, y and z too");
+    command.add_option("--plot-errors", request.errors_plot,
+                       "Picture of the errors over time, .png or .svg");
     command.add_option("--plot-distribution", request.distribution_plot,
-                       "distribution of the errors (.png or .svg)");
+                       "Picture of the errors' distribution, .png or .svg");
 }
 
 void addAte(CLI::App& app, AteRequest& request) {
-    auto* command = app.add_subcommand("ate", "absolute trajectory error");
-    describeTrajectories(*command, request);
+    auto& command = *app.add_subcommand("ate", "Absolute trajectory error");
+    declareTrajectories(command, request);
     auto& options = request.options;
-    command->add_option("--max-difference", options.max_difference_s, "between stamps (s)");
-    command->add_option("--offset", options.offset_s, "added to the estimate's stamps (s)");
-    command->add_option("--scale", options.scale, "factor on the estimate's positions");
-    command->add_flag("--fit-scale", options.fit_scale, "align with the scale that fits best");
-    command->add_option("--plot", request.plot, "truth, estimate and difference (.png or .svg)");
+    command
+        .add_option("--max-difference", options.max_difference_s,
+                    "Stamps further apart are no pair, s")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--offset", options.offset_s, "Added to the estimate's stamps, s")
+        ->capture_default_str();
+    command.add_option("--scale", options.scale, "Factor on the estimate's positions")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_flag("--fit-scale", options.fit_scale, "Align with the scale that fits best")
+        ->excludes("--scale");
+    command.add_option("--plot", request.plot,
+                       "Picture of truth, estimate and difference, .png or .svg");
     const std::map<std::string, PlotPlane> planes{
         {"xy", PlotPlane::XY}, {"xz", PlotPlane::XZ}, {"yz", PlotPlane::YZ}};
-    command->add_option("--plane", request.plane, "of --plot: xy, xz or yz")
-        ->transform(CLI::CheckedTransformer(planes));
-    command->callback([&request] { runAte(request); });
+    command.add_option("--plane", request.plane, "Of --plot: xy, xz or yz [xy]")
+        ->transform(CLI::CheckedTransformer(planes).description(""))
+        ->type_name("NAME");
+    command.final_callback([&request] { print(runAte(request)); });
 }
 
 void addRpe(CLI::App& app, RpeRequest& request) {
-    auto* command = app.add_subcommand("rpe", "relative pose error");
-    describeTrajectories(*command, request);
+    auto& command = *app.add_subcommand("rpe", "Relative pose error");
+    declareTrajectories(command, request);
     auto& options = request.options;
-    command->add_flag("--fixed-delta", options.fixed_delta,
-                      "pairs of poses --delta apart; without it all pairs");
-    command->add_option("--delta", options.delta, "distance of the two poses of a pair");
+    command.add_flag("--fixed-delta", options.fixed_delta,
+                     "Pairs of poses --delta apart; without it all pairs");
+    command.add_option("--delta", options.delta, "Distance of the two poses of a pair")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     const std::map<std::string, DeltaUnit> units{{"s", DeltaUnit::Seconds},
                                                  {"m", DeltaUnit::Metres},
                                                  {"rad", DeltaUnit::Radians},
                                                  {"deg", DeltaUnit::Degrees},
                                                  {"f", DeltaUnit::Frames}};
-    command->add_option("--delta-unit", options.unit, "s, m, rad, deg or f (frames)")
-        ->transform(CLI::CheckedTransformer(units));
-    command->add_option("--max-pairs", options.max_pairs, "draw as many; 0: take all");
-    command->add_option("--seed", options.seed, "of the drawing");
-    command->add_option("--offset", options.offset_s, "added to the estimate's stamps (s)");
-    command->add_option("--scale", options.scale, "factor on the estimate's positions");
-    command->callback([&request] { runRpe(request); });
+    command.add_option("--delta-unit", options.unit, "s, m, rad, deg or f, for frames [s]")
+        ->transform(CLI::CheckedTransformer(units).description(""))
+        ->type_name("NAME");
+    command
+        .add_option("--max-pairs", options.max_pairs, "Draw so many when there are more; 0: all")
+        ->capture_default_str();
+    command.add_option("--seed", options.seed, "Of the drawing")->capture_default_str();
+    command.add_option("--offset", options.offset_s, "Added to the estimate's stamps, s")
+        ->capture_default_str();
+    command.add_option("--scale", options.scale, "Factor on the estimate's positions")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.final_callback([&request] { print(runRpe(request)); });
 }
 
 void addAssociate(CLI::App& app, AssociateRequest& request) {
-    auto* command = app.add_subcommand("associate", "pair the lines of two lists by stamp");
-    command->add_option("first", request.first, "list, e.g. rgb.txt")->required();
-    command->add_option("second", request.second, "list, e.g. depth.txt")->required();
+    auto& command = *app.add_subcommand("associate", "Pair the lines of two lists by stamp");
+    command.add_option("FILE1", request.first, "List, e.g. rgb.txt")->required();
+    command.add_option("FILE2", request.second, "List, e.g. depth.txt")->required();
     auto& options = request.options;
-    command->add_option("--max-difference", options.max_difference_s, "between stamps (s)");
-    command->add_option("--offset", options.offset_s, "added to the second list's stamps (s)");
-    command->add_flag("--first-only", options.first_only, "print lines of the first list only");
-    command->callback([&request] { runAssociate(request); });
+    command
+        .add_option("--max-difference", options.max_difference_s,
+                    "Stamps further apart are no pair, s")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--offset", options.offset_s, "Added to the second list's stamps, s")
+        ->capture_default_str();
+    command.add_flag("--first-only", options.first_only, "Print lines of the first list only");
+    command.final_callback([&request] { print(runAssociate(request)); });
+}
+
+/** RGB DEPTH OUT, or OUT alone after --pairs. */
+void takeFiles(const std::vector<std::string>& files, PointCloudRequest& request) {
+    const std::size_t wanted = request.pairs.empty() ? 3 : 1;
+    if (files.size() != wanted) {
+        throw CLI::ValidationError("pointcloud", "give RGB DEPTH OUT.ply, or --pairs and OUT.ply");
+    }
+    request.output = files.back();
+    if (wanted == 1) return;
+    request.color = files[0];
+    request.depth = files[1];
+}
+
+void addPointCloud(CLI::App& app, PointCloudRequest& request, std::vector<std::string>& files) {
+    auto& command = *app.add_subcommand("pointcloud", "Coloured points of RGB-D images");
+    command
+        .add_option("RGB DEPTH OUT.ply", files,
+                    "Images, or with --trajectory lists of them; the file to write")
+        ->required()
+        ->expected(1, 3);
+    command.add_option("--trajectory", request.trajectory, "Poses of the images, a TUM text file");
+    command.add_option("--pairs", request.pairs,
+                       "List that 'associate' printed, in place of RGB and DEPTH");
+    command
+        .add_option("--camera", request.camera,
+                    "fr1, fr2, fr3, ros or an ini file with [CAMERA_PARAMS]")
+        ->capture_default_str();
+    command
+        .add_option("--depth-units", request.depth_units,
+                    "Depth units a metre; default: the camera's")
+        ->check(CLI::PositiveNumber);
+    command
+        .add_option("--max-difference", request.max_difference_s,
+                    "Stamps further apart are no pair, s")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command.add_option("--nth", request.every_image, "Take every n-th image")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    auto& options = request.options;
+    command
+        .add_option("--downsample", options.every_pixel,
+                    "Take every n-th pixel of a row and column")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    command
+        .add_option("--max-depth", options.max_depth_m, "Leave out what is farther, m; 0: nothing")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command.add_option("--voxel", options.voxel_m, "Keep one point a cube of this side, m; 0: all")
+        ->check(CLI::NonNegativeNumber)
+        ->capture_default_str();
+    command.final_callback([&] {
+        takeFiles(files, request);
+        print(runPointCloud(request));
+    });
+}
+
+void addMap(CLI::App& app, MapRequest& request) {
+    auto& command = *app.add_subcommand("map", "Accuracy and completeness of a map of points");
+    command.add_option("MAP.ply", request.map, "Points of the map")->required();
+    command.add_option("TRUE_SURFACE.ply", request.surface, "Triangles, or points close together")
+        ->required();
+    auto* estimate =
+        command.add_option("--estimate", request.estimate,
+                           "Trajectory of the map: aligned with --truth, it moves the map");
+    command.add_option("--truth", request.truth, "True trajectory, in the surface's frame")
+        ->needs(estimate);
+    estimate->needs("--truth");
+    auto& options = request.options;
+    command
+        .add_option("--complete-within", options.completeness_distance_m,
+                    "A place of the surface with a point of the map nearer is covered, m")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
+    declareFormat(command, request.format);
+    command.final_callback([&request] { print(runMap(request)); });
 }
 
 int run(int argc, char** argv) {
     CLI::App app("Evaluates RGB-D trajectories and maps as the TUM RGB-D benchmark does.");
+    app.set_version_flag("--version", RGBD_VERSION);
     app.require_subcommand(1);
-    app.option_defaults()->always_capture_default();
+    app.fallthrough();
+    app.add_flag_callback(
+        "-q,--quiet", [] { setVerbosity(Verbosity::Quiet); }, "Only errors and results");
+    app.add_flag_callback(
+        "-v,--verbose", [] { setVerbosity(Verbosity::Verbose); }, "Say more");
     AteRequest ate;
     RpeRequest rpe;
     AssociateRequest association;
+    PointCloudRequest cloud;
+    std::vector<std::string> cloud_files;
+    MapRequest map;
     addAte(app, ate);
     addRpe(app, rpe);
     addAssociate(app, association);
+    addPointCloud(app, cloud, cloud_files);
+    addMap(app, map);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {
@@ -194,7 +214,8 @@ int run(int argc, char** argv) {
 }
 
 }  // namespace
+}  // namespace rgbd_graphslam
 
 int main(int argc, char** argv) {
-    return rgbd_graphslam::runMain("rgbd-eval", [&] { return run(argc, argv); });
+    return rgbd_graphslam::runMain("rgbd-eval", [&] { return rgbd_graphslam::run(argc, argv); });
 }

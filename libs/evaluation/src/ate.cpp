@@ -52,6 +52,7 @@ std::optional<double> fittedScale(const Matches& matches) {
 
 AteResult evaluateAte(const Trajectory& estimate, const Trajectory& truth,
                       const AteOptions& options) {
+    checkScale(options.scale);
     const auto poses = withUniqueStamps(estimate);
     const auto matches = match(poses, withUniqueStamps(truth), options);
     AteResult result;

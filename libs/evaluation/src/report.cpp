@@ -74,6 +74,20 @@ Report reportOf(const std::string& estimate, const RpeResult& result, PerAxis pe
     return report;
 }
 
+Report reportOf(const std::string& map, const MapAccuracy& accuracy) {
+    Report report{map, {}};
+    const auto count = [&](const std::string& name, std::size_t value) {
+        report.figures.push_back({name, static_cast<double>(value), "points", 0});
+    };
+    count("map_points", accuracy.distance_m.count);
+    count("surface_samples", accuracy.surface_samples);
+    const std::string distance = "distance_to_surface";
+    addStatistics(distance, "m", accuracy.distance_m, report.figures);
+    report.figures.push_back({distance + ".95_percent", accuracy.distance_95_m, "m"});
+    report.figures.push_back({"completeness", 100 * accuracy.completeness, "%", 2});
+    return report;
+}
+
 std::string format(const std::vector<Report>& reports, ReportFormat format) {
     switch (format) {
         case ReportFormat::Csv:

@@ -171,6 +171,7 @@ void summarise(RpeResult& result) {
 
 RpeResult evaluateRpe(const Trajectory& estimate, const Trajectory& truth,
                       const RpeOptions& options) {
+    checkScale(options.scale);
     const auto poses = withUniqueStamps(estimate), true_poses = withUniqueStamps(truth);
     if (poses.size() < 2 || true_poses.size() < 2) {
         throw Error("a relative error needs two poses or more: " + spansOf(poses, true_poses));

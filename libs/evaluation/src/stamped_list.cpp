@@ -32,12 +32,6 @@ double stampOf(const std::string& word, const std::string& path, int line) {
     return stamp_s;
 }
 
-std::vector<double> stampsOf(const std::vector<StampedLine>& lines) {
-    std::vector<double> stamps_s;
-    for (const auto& line : lines) stamps_s.push_back(line.stamp_s);
-    return stamps_s;
-}
-
 std::string textOf(const StampedLine& line) {
     char stamp[32];
     std::snprintf(stamp, sizeof(stamp), "%.6f", line.stamp_s);
@@ -62,6 +56,12 @@ std::vector<StampedLine> readStampedList(const std::string& path) {
     std::vector<StampedLine> lines;
     for (const auto& [stamp_s, rest] : rest_at) lines.push_back({stamp_s, rest});
     return lines;
+}
+
+std::vector<double> stampsOf(const std::vector<StampedLine>& lines) {
+    std::vector<double> stamps_s;
+    for (const auto& line : lines) stamps_s.push_back(line.stamp_s);
+    return stamps_s;
 }
 
 std::string associationText(const std::vector<StampedLine>& first,

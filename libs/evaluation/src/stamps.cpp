@@ -1,7 +1,10 @@
 #include "stamps.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
+
+#include "rgbd_graphslam/core/error.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -38,6 +41,12 @@ std::size_t nearestIndex(const std::vector<double>& ascending, double wanted) {
     if (above == ascending.end()) return ascending.size() - 1;
     const bool lower_is_nearer = wanted - *(above - 1) <= *above - wanted;
     return (above - ascending.begin()) - (lower_is_nearer ? 1 : 0);
+}
+
+void checkScale(double scale) {
+    if (!std::isfinite(scale) || scale <= 0) {
+        throw Error("the scale " + std::to_string(scale) + " is none", "give a positive number");
+    }
 }
 
 std::string spansOf(const Trajectory& estimate, const Trajectory& truth) {

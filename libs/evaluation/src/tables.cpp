@@ -23,7 +23,7 @@ std::string padded(std::string text, std::size_t width) {
 
 /** Lines of a column for one estimate: its name, then its values. */
 std::vector<std::string> columnOf(const Report& report) {
-    std::vector<std::string> lines{report.estimate};
+    std::vector<std::string> lines{report.name};
     for (const auto& figure : report.figures) lines.push_back(valueText(figure));
     return lines;
 }
@@ -83,7 +83,7 @@ std::string latexHeading(const Figure& figure) {
 }
 
 nlohmann::ordered_json jsonOf(const Report& report) {
-    nlohmann::ordered_json object{{"estimate", report.estimate}};
+    nlohmann::ordered_json object{{"name", report.name}};
     for (const auto& figure : report.figures) {
         auto& entry = object["figures"][figure.name];
         entry["value"] = figure.value;  // null when not finite
@@ -119,11 +119,11 @@ std::string textTable(const std::vector<Report>& reports) {
 }
 
 std::string csvTable(const std::vector<Report>& reports) {
-    std::string text = "estimate";
+    std::string text = "name";
     for (const auto& figure : reports.front().figures) text += "," + csvHeading(figure);
     text += "\n";
     for (const auto& report : reports) {
-        text += quotedForCsv(report.estimate);
+        text += quotedForCsv(report.name);
         for (const auto& figure : report.figures) text += "," + valueText(figure);
         text += "\n";
     }
@@ -138,7 +138,7 @@ std::string jsonTable(const std::vector<Report>& reports) {
 
 std::string latexTable(const std::vector<Report>& reports) {
     std::string text = "\\begin{tabular}{l" + std::string(reports.size(), 'r') + "}\n\\toprule\n";
-    for (const auto& report : reports) text += " & " + escapedForLatex(report.estimate);
+    for (const auto& report : reports) text += " & " + escapedForLatex(report.name);
     text += " \\\\\n\\midrule\n";
     const auto& figures = reports.front().figures;
     for (std::size_t k = 0; k < figures.size(); ++k) {

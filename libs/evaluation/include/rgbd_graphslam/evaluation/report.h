@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "rgbd_graphslam/evaluation/ate.h"
+#include "rgbd_graphslam/evaluation/map_accuracy.h"
 #include "rgbd_graphslam/evaluation/rpe.h"
 
 namespace rgbd_graphslam {
@@ -16,9 +17,9 @@ struct Figure {
     int decimals = 6;
 };
 
-/** What was found about one estimate. */
+/** What was found about one estimate or map. */
 struct Report {
-    std::string estimate;  // its name
+    std::string name;
     std::vector<Figure> figures;
 };
 
@@ -31,6 +32,9 @@ Report reportOf(const std::string& estimate, const AteResult& result, PerAxis pe
 /** Counts, figures of the translational and rotational error; with PerAxis::Yes those of the
  *  absolute components in the frame of the first pose of each pair too. */
 Report reportOf(const std::string& estimate, const RpeResult& result, PerAxis per_axis);
+
+/** Distance of the map's points and completeness. */
+Report reportOf(const std::string& map, const MapAccuracy& accuracy);
 
 enum class ReportFormat { Text, Csv, Json, Latex };
 

@@ -16,6 +16,9 @@ struct StampedLine {
  *  \throws Error naming file and line for a stamp that is no number, or when the list is empty */
 std::vector<StampedLine> readStampedList(const std::string& path);
 
+/** In seconds. */
+std::vector<double> stampsOf(const std::vector<StampedLine>& lines);
+
 struct AssociationOptions {
     double max_difference_s = 0.02;  // exclusive
     double offset_s = 0;             // added to the stamps of the second list

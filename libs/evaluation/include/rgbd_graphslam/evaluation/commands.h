@@ -1,0 +1,66 @@
+/** What rgbd-eval does: a request and a function for each of its commands. The functions read and
+ *  write the files that the request names and return what is to be printed. */
+#pragma once
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/evaluation/plots.h"
+#include "rgbd_graphslam/evaluation/point_cloud.h"
+#include "rgbd_graphslam/evaluation/report.h"
+#include "rgbd_graphslam/evaluation/stamped_list.h"
+
+namespace rgbd_graphslam {
+
+/** A trajectory in a TUM text file or, as ground truth, in a `.rawlog`.
+ *  \throws Error naming the file when it cannot be read or holds no pose */
+Trajectory readTrajectory(const std::string& path);
+
+/** Common to `ate` and `rpe`; empty names of plots mean none. */
+struct TrajectoryRequest {
+    std::vector<std::string> files;  // estimates, then the truth: two or more
+    ReportFormat format = ReportFormat::Text;
+    bool per_axis = false;
+    std::string errors_plot, distribution_plot;
+};
+
+struct AteRequest : TrajectoryRequest {
+    AteOptions options;
+    std::string plot;
+    PlotPlane plane = PlotPlane::XY;
+};
+std::string runAte(const AteRequest& request);
+
+struct RpeRequest : TrajectoryRequest {
+    RpeOptions options;
+};
+std::string runRpe(const RpeRequest& request);
+
+struct AssociateRequest {
+    std::string first, second;  // lists
+    AssociationOptions options;
+};
+std::string runAssociate(const AssociateRequest& request);
+
+/** One image of `color` and `depth`; with a trajectory all images of the lists `color` and `depth`,
+ *  or of the list of pairs `pairs`. */
+struct PointCloudRequest {
+    std::string color, depth, pairs, trajectory;
+    std::string output;
+    std::string camera = "ros";  // a name or a file
+    double depth_units = 0;      // a metre; 0: the camera's
+    double max_difference_s = 0.02;
+    std::size_t every_image = 1;
+    PointCloudOptions options;
+};
+std::string runPointCloud(const PointCloudRequest& request);
+
+struct MapRequest {
+    std::string map, surface;
+    /** With both, the map is moved as the estimate is to fit the truth. */
+    std::string estimate, truth;
+    MapAccuracyOptions options;
+    ReportFormat format = ReportFormat::Text;
+};
+std::string runMap(const MapRequest& request);
+
+}  // namespace rgbd_graphslam

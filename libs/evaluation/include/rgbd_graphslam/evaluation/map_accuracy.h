@@ -1,0 +1,37 @@
+/** How well a map of points covers the true surface. */
+#pragma once
+#include <cstddef>
+
+#include "rgbd_graphslam/evaluation/alignment.h"
+#include "rgbd_graphslam/evaluation/ply.h"
+#include "rgbd_graphslam/evaluation/statistics.h"
+
+namespace rgbd_graphslam {
+
+struct MapAccuracyOptions {
+    /** Maps the map's coordinates to the surface's. */
+    Similarity alignment;
+    double completeness_distance_m = 0.02;
+    /** The surface's triangles are sampled no coarser than this for the completeness. */
+    double sample_spacing_m = 0.01;
+};
+
+struct MapAccuracy {
+    /** Of the map's points to the surface; exact for triangles, to the nearest vertex for a surface
+     *  given as points. */
+    Statistics distance_m;
+    double distance_95_m = 0;  // 95 % of the points are nearer
+    /** Share of the surface, by area (by number for a surface given as points), that has a point of
+     *  the map within the completeness distance. */
+    double completeness = 0;
+    std::size_t surface_samples = 0;
+};
+
+/** Accuracy and completeness in the sense of Seitz et al., "A comparison and evaluation of
+ *  multi-view stereo reconstruction algorithms", CVPR 2006.
+ *  \param surface triangles, or points that sample it densely
+ *  \throws Error for an option that is not positive or a map without points */
+MapAccuracy evaluateMap(const PlyModel& map, const PlyModel& surface,
+                        const MapAccuracyOptions& options = {});
+
+}  // namespace rgbd_graphslam

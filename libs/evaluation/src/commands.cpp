@@ -1,0 +1,153 @@
+#include "rgbd_graphslam/evaluation/commands.h"
+
+#include <filesystem>
+#include <set>
+
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/progress.h"
+#include "rgbd_graphslam/dataset/camera_file.h"
+#include "rgbd_graphslam/dataset/rawlog_info.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+std::vector<std::string> estimatesOf(const TrajectoryRequest& request) {
+    if (request.files.size() < 2) throw Error("an estimate and a truth are needed");
+    return {request.files.begin(), request.files.end() - 1};
+}
+
+PerAxis perAxis(const TrajectoryRequest& request) {
+    return request.per_axis ? PerAxis::Yes : PerAxis::No;
+}
+
+/** Names of the estimates in tables: short ones, unless these would be the same. */
+std::vector<std::string> labelsOf(const std::vector<std::string>& paths) {
+    std::vector<std::string> stems;
+    for (const auto& path : paths) stems.push_back(std::filesystem::path(path).stem());
+    const std::set<std::string> distinct(stems.begin(), stems.end());
+    return distinct.size() == paths.size() ? stems : paths;
+}
+
+/** Calls evaluate(); its errors name the file. */
+template <class Evaluate>
+auto naming(const std::string& file, Evaluate evaluate) {
+    try {
+        return evaluate();
+    } catch (const Error& e) {
+        throw Error(file + ": " + e.what());
+    }
+}
+
+void plotErrors(const TrajectoryRequest& request, const std::vector<ErrorPanel>& panels) {
+    if (!request.errors_plot.empty()) plotErrorsOverTime(panels, request.errors_plot);
+    if (!request.distribution_plot.empty()) {
+        plotErrorDistribution(panels, request.distribution_plot);
+    }
+}
+
+CameraSetup cameraOf(const PointCloudRequest& request) {
+    const auto known = cameraByName(request.camera);
+    CameraSetup setup = known ? *known : readCameraFile(request.camera);
+    if (request.depth_units > 0) setup.depth_units = request.depth_units;
+    return setup;
+}
+
+std::vector<PosedImageFiles> imagesOf(const PointCloudRequest& request) {
+    const bool pairs = !request.pairs.empty();
+    if (request.trajectory.empty()) {
+        if (pairs) throw Error("'" + request.pairs + "' needs poses", "give --trajectory");
+        return {{request.color, request.depth, {}}};
+    }
+    const auto trajectory = readTrajectory(request.trajectory);
+    return pairs ? posedImages(request.pairs, trajectory, request.max_difference_s)
+                 : posedImages(request.color, request.depth, trajectory, request.max_difference_s);
+}
+
+Similarity alignmentOf(const MapRequest& request) {
+    if (request.estimate.empty()) return request.options.alignment;
+    return naming(request.estimate, [&] {
+        return evaluateAte(readTrajectory(request.estimate), readTrajectory(request.truth))
+            .alignment;
+    });
+}
+
+}  // namespace
+
+Trajectory readTrajectory(const std::string& path) {
+    if (std::filesystem::path(path).extension() != ".rawlog") return readTumTrajectory(path);
+    auto truth = truthOf(path);
+    if (truth.empty()) {
+        throw Error("'" + path + "' holds no ground truth", "give the truth as a text file");
+    }
+    return truth;
+}
+
+std::string runAte(const AteRequest& request) {
+    const auto files = estimatesOf(request);
+    const auto labels = labelsOf(files);
+    const auto truth = readTrajectory(request.files.back());
+    std::vector<EvaluatedAte> evaluated;
+    std::vector<Report> reports;
+    for (std::size_t k = 0; k < files.size(); ++k) {
+        const auto estimate = readTrajectory(files[k]);
+        const auto result =
+            naming(files[k], [&] { return evaluateAte(estimate, truth, request.options); });
+        evaluated.push_back({labels[k], estimate, result});
+        reports.push_back(reportOf(labels[k], result, perAxis(request)));
+    }
+    if (!request.plot.empty()) plotTrajectories(truth, evaluated, request.plane, request.plot);
+    plotErrors(request, errorPanels(evaluated));
+    return format(reports, request.format);
+}
+
+std::string runRpe(const RpeRequest& request) {
+    const auto files = estimatesOf(request);
+    const auto labels = labelsOf(files);
+    const auto truth = readTrajectory(request.files.back());
+    std::vector<EvaluatedRpe> evaluated;
+    std::vector<Report> reports;
+    for (std::size_t k = 0; k < files.size(); ++k) {
+        const auto estimate = readTrajectory(files[k]);
+        const auto result =
+            naming(files[k], [&] { return evaluateRpe(estimate, truth, request.options); });
+        evaluated.push_back({labels[k], result});
+        reports.push_back(reportOf(labels[k], result, perAxis(request)));
+    }
+    const auto style =
+        request.options.fixed_delta ? ErrorPanel::Style::Lines : ErrorPanel::Style::Points;
+    plotErrors(request, errorPanels(evaluated, style));
+    return format(reports, request.format);
+}
+
+std::string runAssociate(const AssociateRequest& request) {
+    return associationText(readStampedList(request.first), readStampedList(request.second),
+                           request.options);
+}
+
+std::string runPointCloud(const PointCloudRequest& request) {
+    const CameraSetup setup = cameraOf(request);
+    const auto images = imagesOf(request);
+    PointCloudBuilder builder(setup.camera, request.options);
+    Progress progress("points", images.size(), "images");
+    std::size_t used = 0;
+    for (std::size_t k = 0; k < images.size(); k += request.every_image) {
+        const auto& [color, depth, T_world_cam] = images[k];
+        builder.add(readRgbdImage(color, depth, setup.depthUnitInMetres()), T_world_cam);
+        progress.update(k + 1);
+        ++used;
+    }
+    progress.finish();
+    writePly(request.output, builder.cloud());
+    return "images " + std::to_string(used) + "\npoints " +
+           std::to_string(builder.cloud().vertices.size()) + "\n";
+}
+
+std::string runMap(const MapRequest& request) {
+    MapAccuracyOptions options = request.options;
+    options.alignment = alignmentOf(request);
+    const auto accuracy = evaluateMap(readPly(request.map), readPly(request.surface), options);
+    const std::string label = std::filesystem::path(request.map).stem();
+    return format({reportOf(label, accuracy)}, request.format);
+}
+
+}  // namespace rgbd_graphslam

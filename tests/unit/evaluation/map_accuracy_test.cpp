@@ -1,0 +1,119 @@
+#include "rgbd_graphslam/evaluation/map_accuracy.h"
+
+#include <gtest/gtest.h>
+
+#include "made_trajectories.h"
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+/** The square [0, 1]^2 at z = 0, as two triangles. */
+PlyModel square() {
+    PlyModel model;
+    model.vertices = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+    model.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return model;
+}
+
+/** Points every centimetre over [0, width] x [0, 1] at one height. */
+PlyModel gridAt(float z, int width_cm = 100) {
+    PlyModel model;
+    for (int i = 0; i <= width_cm; ++i) {
+        for (int j = 0; j <= 100; ++j) model.vertices.emplace_back(i * 0.01f, j * 0.01f, z);
+    }
+    return model;
+}
+
+TEST(MapAccuracy, isTheDistanceToTheTriangles) {
+    const auto accuracy = evaluateMap(gridAt(0.015f), square());
+    EXPECT_NEAR(accuracy.distance_m.min, 0.015, 1e-6);
+    EXPECT_NEAR(accuracy.distance_m.max, 0.015, 1e-6);
+    EXPECT_NEAR(accuracy.distance_95_m, 0.015, 1e-6);
+    EXPECT_EQ(accuracy.completeness, 1);
+}
+
+TEST(MapAccuracy, ofPointsBesideATriangleIsToItsEdgeOrCorner) {
+    PlyModel map;
+    map.vertices = {{2, 0.5f, 0}};
+    EXPECT_NEAR(evaluateMap(map, square()).distance_m.mean, 1, 1e-6);
+    map.vertices = {{4, 5, 0}};
+    EXPECT_NEAR(evaluateMap(map, square()).distance_m.mean, 5, 1e-6);
+}
+
+TEST(MapAccuracy, completenessIsTheShareOfTheAreaThatIsCovered) {
+    const auto accuracy = evaluateMap(gridAt(0, 48), square());
+    EXPECT_NEAR(accuracy.completeness, 0.50, 0.005);  // 0.48 m and 2 cm beyond
+    EXPECT_GT(accuracy.surface_samples, 10000u);
+}
+
+TEST(MapAccuracy, completenessDoesNotDependOnHowTheSurfaceIsCut) {
+    PlyModel slivers = square();
+    // The covered half as two triangles, the other as many thin ones.
+    slivers.vertices = {{0, 0, 0}, {0.5f, 0, 0}, {0.5f, 1, 0}, {0, 1, 0}};
+    for (int k = 0; k <= 50; ++k) {
+        slivers.vertices.emplace_back(0.5f, k * 0.02f, 0);
+        slivers.vertices.emplace_back(1, k * 0.02f, 0);
+        const auto n = static_cast<std::uint32_t>(slivers.vertices.size());
+        if (k == 0) continue;
+        slivers.triangles.push_back({n - 4, n - 3, n - 2});
+        slivers.triangles.push_back({n - 3, n - 2, n - 1});
+    }
+    EXPECT_NEAR(evaluateMap(gridAt(0, 48), slivers).completeness, 0.50, 0.005);
+}
+
+TEST(MapAccuracy, takesASurfaceOfPoints) {
+    const auto accuracy = evaluateMap(gridAt(0.01f, 50), gridAt(0));
+    EXPECT_NEAR(accuracy.distance_m.mean, 0.01, 1e-6);
+    EXPECT_NEAR(accuracy.completeness, 52 / 101.0, 1e-9);
+    EXPECT_EQ(accuracy.surface_samples, 101u * 101u);
+}
+
+TEST(MapAccuracy, movesTheMapFirst) {
+    PlyModel map = gridAt(0);
+    for (auto& vertex : map.vertices) {
+        vertex = (someMotion().inverse() * Eigen::Vector3d(vertex.cast<double>())).cast<float>();
+    }
+    MapAccuracyOptions options;
+    options.alignment.motion = someMotion();
+    EXPECT_LT(evaluateMap(map, square(), options).distance_m.max, 1e-5);
+}
+
+/** Points on a sphere: the tree must find among many triangles what a search of all finds. */
+TEST(MapAccuracy, findsTheNearestOfManyTriangles) {
+    PlyModel sphere;
+    constexpr int rings = 30, around = 60;
+    for (int i = 0; i <= rings; ++i) {
+        for (int j = 0; j < around; ++j) {
+            const double a = M_PI * i / rings, b = 2 * M_PI * j / around;
+            sphere.vertices.emplace_back(std::sin(a) * std::cos(b), std::sin(a) * std::sin(b),
+                                         std::cos(a));
+        }
+    }
+    PlyModel map;
+    double nearest_expected = 0;
+    for (std::uint32_t i = 0; i < rings; ++i) {
+        for (std::uint32_t j = 0; j < around; ++j) {
+            const std::uint32_t a = i * around + j, b = i * around + (j + 1) % around;
+            sphere.triangles.push_back({a, b, a + around});
+            sphere.triangles.push_back({b, b + around, a + around});
+            // Just outside the corner a, in its own direction, nothing is nearer than the corner.
+            map.vertices.push_back(sphere.vertices[a] * 1.25f);
+            nearest_expected += 0.25;
+        }
+    }
+    const auto errors = evaluateMap(map, sphere).distance_m;
+    EXPECT_NEAR(errors.mean, nearest_expected / map.vertices.size(), 1e-6);
+    EXPECT_NEAR(errors.min, 0.25, 1e-6);
+    EXPECT_NEAR(errors.max, 0.25, 1e-6);
+}
+
+TEST(MapAccuracy, refusesAnEmptyMapAndDistancesThatAreNone) {
+    EXPECT_THROW(evaluateMap({}, square()), Error);
+    MapAccuracyOptions options;
+    options.completeness_distance_m = 0;
+    EXPECT_THROW(evaluateMap(square(), square(), options), Error);
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
