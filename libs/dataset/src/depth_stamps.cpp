@@ -13,7 +13,10 @@ constexpr long long million = 1000000;
 }  // namespace
 
 std::string toIniText(const DepthStamps& stamps) {
-    std::string text = std::string(header) + "\n";
+    if (stamps.empty()) return "";
+    std::string text = std::string(header) +
+                       "\n; stamp of a frame (its colour image) = stamp of its depth image, UNIX "
+                       "time in s; equal where not listed\n";
     char line[128];
     for (const auto& [color_us, depth_us] : stamps) {
         std::snprintf(line, sizeof(line), "%lld.%06lld = %lld.%06lld\n", color_us / million,

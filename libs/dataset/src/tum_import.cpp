@@ -175,18 +175,14 @@ SensorEntries sensorEntries(const TumSequence& sequence, const CameraSetup& setu
     return entries;
 }
 
-mrpt::obs::CObservationComment commentFor(const std::vector<FramePair>& pairs,
-                                          mrpt::Clock::time_point time) {
+DepthStamps depthStampsOf(const std::vector<FramePair>& pairs) {
     DepthStamps stamps;
     for (const auto& pair : pairs) {
         const auto color_us = microseconds(pair.color.stamp_s);
         const auto depth_us = microseconds(pair.depth.stamp_s);
         if (color_us != depth_us) stamps[color_us] = depth_us;
     }
-    mrpt::obs::CObservationComment comment;
-    comment.timestamp = time;
-    comment.text = toIniText(stamps);
-    return comment;
+    return stamps;
 }
 
 /** A frame on its way from disk to rawlog. */
@@ -228,8 +224,7 @@ class Import {
           sensors_(sensorEntries(sequence, setup, report_)) {}
 
     void write(RawlogWriter& writer) {
-        auto comment = commentFor(pairs_, firstTime());
-        writer.write(comment);
+        writeComment(writer);
         Progress progress("importing", pairs_.size());
         OrderedJobs<LoadedFrame> loading;
         std::size_t next_load = 0, next_sensor = 0;
@@ -250,6 +245,16 @@ class Import {
 
   private:
     std::size_t ahead() const { return static_cast<std::size_t>(std::max(1, options_.threads)); }
+
+    void writeComment(RawlogWriter& writer) const {
+        mrpt::obs::CObservationComment comment;
+        comment.timestamp = firstTime();
+        comment.text =
+            "[source]\nsequence = " + fs::weakly_canonical(sequence_.folder).filename().string() +
+            "\ncamera = " + fs::path(setup_.name).filename().string() + "\n" +
+            toIniText(depthStampsOf(pairs_));
+        writer.write(comment);
+    }
 
     mrpt::Clock::time_point firstTime() const {
         const auto first_frame = toMrptTime(pairs_.front().color.stamp_s);

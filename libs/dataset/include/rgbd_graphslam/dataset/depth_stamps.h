@@ -11,7 +11,7 @@ namespace rgbd_graphslam {
  *  every MRPT tool preserves and shows them. */
 using DepthStamps = std::map<long long, long long>;
 
-/** The lines `colour stamp = depth stamp` of section [depth_stamps]. */
+/** The lines `colour stamp = depth stamp` of section [depth_stamps]; nothing when there is none. */
 std::string toIniText(const DepthStamps& stamps);
 
 /** Inverse of toIniText; lines of other sections and lines of another form are passed over, because
