@@ -232,10 +232,8 @@ void IniFile::override(const std::string& assignment) {
     sections_[section][key] = {trimmed(assignment.substr(equals + 1)), "--set " + assignment};
 }
 
-void IniFile::load(const std::vector<Options*>& structs) const {
-    std::vector<std::string> known_sections;
+void IniFile::loadKnown(const std::vector<Options*>& structs) const {
     for (Options* options : structs) {
-        known_sections.emplace_back(options->section());
         const auto section = sections_.find(options->section());
         if (section == sections_.end()) continue;
         const auto& entries = section->second;
@@ -253,6 +251,12 @@ void IniFile::load(const std::vector<Options*>& structs) const {
                         nearest(key, loader.keys()));
         }
     }
+}
+
+void IniFile::load(const std::vector<Options*>& structs) const {
+    loadKnown(structs);
+    std::vector<std::string> known_sections;
+    for (const Options* options : structs) known_sections.emplace_back(options->section());
     for (const auto& [section, entries] : sections_) {
         if (std::find(known_sections.begin(), known_sections.end(), section) !=
             known_sections.end()) {

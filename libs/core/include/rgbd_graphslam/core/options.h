@@ -49,6 +49,10 @@ class IniFile {
      *          not finite or out of its range */
     void load(const std::vector<Options*>& structs) const;
 
+    /** As load, but for one part of a program that shares its ini with others: sections of other
+     *  structs are left alone. */
+    void loadKnown(const std::vector<Options*>& structs) const;
+
   private:
     struct Entry {
         std::string value;

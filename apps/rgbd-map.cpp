@@ -1,0 +1,83 @@
+/** Makes the maps of a finished run again, at other resolutions, without running SLAM. */
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+
+#include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/mapping/run_folder.h"
+
+using namespace rgbd_graphslam;
+
+namespace {
+
+struct Arguments {
+    std::string folder, rawlog, destination;
+    double octree_m = 0, grid_m = 0, points_m = 0, z_min_m = 0, z_max_m = 0;
+    std::vector<std::string> settings;
+    bool upright = false, quiet = false, verbose = false;
+};
+
+/** What the command line says goes over what the run's config.ini says. */
+MapOptions optionsOf(const CLI::App& app, const Arguments& arguments) {
+    MapOptions options = readRunOptions(arguments.folder);
+    IniFile overrides = IniFile::fromText("", "command line");
+    const auto set = [&](const char* flag, const char* key, double value) {
+        if (app.count(flag))
+            overrides.override("MapOptions." + std::string(key) + "=" + std::to_string(value));
+    };
+    set("--octree", "octree_resolution_m", arguments.octree_m);
+    set("--grid", "grid_resolution_m", arguments.grid_m);
+    set("--points", "point_voxel_m", arguments.points_m);
+    set("--z-min", "z_min_m", arguments.z_min_m);
+    set("--z-max", "z_max_m", arguments.z_max_m);
+    for (const auto& setting : arguments.settings) overrides.override(setting);
+    overrides.load({&options});
+    return options;
+}
+
+void print(const MapSummary& summary, const std::string& folder) {
+    std::printf(
+        "keyframes      %zu\npoints         %zu\noctree leaves  %zu\ngrid           %d x %d cells\n"
+        "a keyframe     %.1f ms\nmemory         %.1f MB\nmaps in        %s\n",
+        summary.keyframes, summary.points, summary.octree_leaves, summary.grid_width,
+        summary.grid_height, summary.insert_ms, summary.megabytes, folder.c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    Arguments arguments;
+    CLI::App app(
+        "Makes the maps of a finished rgbd-slam run again, at other resolutions, without SLAM.");
+    app.add_option("OUT", arguments.folder, "Output folder of rgbd-slam")->required();
+    app.add_option("--octree", arguments.octree_m, "Resolution of the octree, m");
+    app.add_option("--grid", arguments.grid_m, "Resolution of the 2-D grid, m");
+    app.add_option("--points", arguments.points_m,
+                   "Voxel that readings are merged in to one point, m");
+    app.add_option("--z-min", arguments.z_min_m,
+                   "Obstacles of the grid start this high above the floor, m");
+    app.add_option("--z-max", arguments.z_max_m,
+                   "Obstacles of the grid end this high above the floor, m");
+    app.add_option("--set", arguments.settings, "MapOptions.key=value, any other option");
+    app.add_option("--rawlog", arguments.rawlog, "Where the rawlog is now, if it was moved");
+    app.add_option("-o,--output", arguments.destination, "Folder for the maps (default: OUT)");
+    app.add_flag("--upright", arguments.upright,
+                 "Turn the poses upright first: for trajectories that are not of rgbd-slam");
+    app.add_flag("--quiet", arguments.quiet, "Warnings and errors only");
+    app.add_flag("--verbose", arguments.verbose, "Say more");
+    app.set_version_flag("--version", RGBD_VERSION);
+    CLI11_PARSE(app, argc, argv);
+    return runMain("rgbd-map", [&] {
+        setVerbosity(arguments.quiet     ? Verbosity::Quiet
+                     : arguments.verbose ? Verbosity::Verbose
+                                         : Verbosity::Normal);
+        const MapOptions options = optionsOf(app, arguments);
+        const std::string& folder =
+            arguments.destination.empty() ? arguments.folder : arguments.destination;
+        MapInputs inputs = readRunFolder(arguments.folder, arguments.rawlog);
+        if (arguments.upright) inputs = transformed(uprightFromWorld(inputs, options), inputs);
+        const MapSummary summary = writeMaps(inputs, options, folder);
+        if (!arguments.quiet) print(summary, folder);
+        return 0;
+    });
+}

@@ -1,0 +1,42 @@
+/** Answers "what does the camera see within this rectangle?" in constant time. */
+#pragma once
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+namespace rgbd_graphslam {
+
+/** Pixels [u0, u1] x [v0, v1], both ends included and inside the image. */
+struct PixelRect {
+    int u0, v0, u1, v1;
+    int area() const { return (u1 - u0 + 1) * (v1 - v0 + 1); }
+};
+
+/** Nearest and farthest readings over tiles of growing size (a hierarchical z-buffer: Greene, Kass
+ *  and Miller, SIGGRAPH 1993), and the number of readings. */
+class DepthPyramid {
+  public:
+    /** \param depth m, 0 = no reading */
+    explicit DepthPyramid(const cv::Mat1f& depth);
+
+    struct Range {
+        float nearest;   // +infinity without any reading
+        float farthest;  // 0 without any reading
+    };
+    /** Over the tiles that cover the rectangle: possibly wider than its own range, never narrower.
+     */
+    Range range(const PixelRect& rect) const;
+
+    /** Readings within the rectangle, exactly. */
+    int readings(const PixelRect& rect) const;
+
+    int width() const { return count_.cols - 1; }
+    int height() const { return count_.rows - 1; }
+    /** Of the whole image, m. */
+    float farthest() const;
+
+  private:
+    std::vector<cv::Mat2f> levels_;  // (nearest, farthest) of tiles of 2^level pixels
+    cv::Mat1i count_;                // summed-area table
+};
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,19 @@
+/** A finished run's output folder as the source of new maps. */
+#pragma once
+#include <string>
+
+#include "rgbd_graphslam/mapping/map_builder.h"
+
+namespace rgbd_graphslam {
+
+/** Reads keyframes.txt, trajectory.txt, and from summary.json the rawlog's path ("rawlog") and the
+ *  loops ("loop_edges": [[from, to, inliers], ...], optional); keyframes_before_loops.txt when it
+ * is there. \param rawlog takes the place of the one in summary.json unless empty \throws Error
+ * when a file is missing or makes no sense */
+MapInputs readRunFolder(const std::string& folder, const std::string& rawlog);
+
+/** Section MapOptions of the folder's config.ini; defaults when there is no such file. Other
+ * sections are left alone. \throws Error as IniFile does */
+MapOptions readRunOptions(const std::string& folder);
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,49 @@
+/** Which way is up, and where the floor is. */
+#pragma once
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/mapping/depth_view.h"
+
+namespace rgbd_graphslam {
+
+/** A reading of an accelerometer in the axes of the camera's optical frame, m/s^2: the specific
+ *  force, which at rest points up. */
+struct SpecificForce {
+    double stamp_s;
+    Eigen::Vector3d in_camera;
+};
+
+/** A point of surface with its normal, which points to the camera. */
+struct SurfacePatch {
+    Eigen::Vector3d position, normal;
+};
+
+/** Mean direction of the specific force in world axes: the camera's own accelerations cancel over a
+ *  run, for it ends about as slow as it began. Readings outside the trajectory's time are left out.
+ *  \return nothing when there are too few readings, or they disagree */
+std::optional<Eigen::Vector3d> upFromAccelerometer(const std::vector<SpecificForce>& readings,
+                                                   const Trajectory& trajectory);
+
+/** Patches on a lattice over a view, in world axes. Needs rays without strong lens distortion only
+ *  in so far as neighbours are neighbours. */
+std::vector<SurfacePatch> surfacePatches(const SE3& T_world_cam, const DepthView& view);
+
+/** The direction that most patches near the guess agree on: floor, tables, seats.
+ *  \param guess unit vector, right to about 45 degrees
+ *  \return nothing when too few patches look up */
+std::optional<Eigen::Vector3d> upFromFloor(const std::vector<SurfacePatch>& patches,
+                                           const Eigen::Vector3d& guess);
+
+/** Height along `up` of the lowest level surface of some size.
+ *  \return nothing when no patch is level */
+std::optional<double> floorHeight(const std::vector<SurfacePatch>& patches,
+                                  const Eigen::Vector3d& up);
+
+/** The frame with z up, the floor at z = 0 and the first camera above the origin looking along +x.
+ *  \param up unit vector, \param floor_m height of the floor along it, both in world axes */
+SE3 uprightFrame(const Eigen::Vector3d& up, double floor_m, const SE3& T_world_first);
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,119 @@
+/** Sparse voxels: a hash table from integer coordinates to cells. */
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace rgbd_graphslam {
+
+/** Integer coordinates of a voxel; the voxel spans [x, x + 1) times the voxel's edge. */
+struct VoxelIndex {
+    int x = 0, y = 0, z = 0;
+};
+
+/** Voxel coordinates are kept within +-2^20. */
+constexpr int voxel_index_limit = 1 << 20;
+
+inline std::uint64_t voxelKey(const VoxelIndex& v) {
+    const auto part = [](int i) { return static_cast<std::uint64_t>(i + voxel_index_limit); };
+    return part(v.x) << 42 | part(v.y) << 21 | part(v.z);
+}
+
+inline VoxelIndex voxelOfKey(std::uint64_t key) {
+    const auto part = [&](int shift) {
+        return static_cast<int>(key >> shift & 0x1fffff) - voxel_index_limit;
+    };
+    return {part(42), part(21), part(0)};
+}
+
+/** Two levels: cubes of 4 x 4 x 4 voxels in a hash table with linear probing, cells within. Images
+ *  ask for neighbours one after the other, which then mostly share a cube. Entries stay in order of
+ *  insertion, so that everything made from them is the same each run. References are valid until
+ * the next insertion. */
+template <class Cell>
+class VoxelTable {
+  public:
+    struct Entry {
+        std::uint64_t key;
+        Cell cell;
+    };
+
+    /** The cell of a key; a new one is value-initialised. */
+    Cell& operator[](std::uint64_t key) {
+        std::uint32_t& number = cube(key).number[within(key)];
+        if (number == 0) {
+            entries_.push_back({key, Cell{}});
+            number = static_cast<std::uint32_t>(entries_.size());
+        }
+        return entries_[number - 1].cell;
+    }
+
+    const Cell* find(std::uint64_t key) const {
+        if (slots_.empty()) return nullptr;
+        const std::uint32_t found = slots_[slotOf(key & cube_bits)];
+        const std::uint32_t number = found ? cubes_[found - 1].number[within(key)] : 0;
+        return number ? &entries_[number - 1].cell : nullptr;
+    }
+
+    const std::vector<Entry>& entries() const { return entries_; }
+
+    /** Keeps the memory for the next use. */
+    void clear() {
+        entries_.clear();
+        cubes_.clear();
+        slots_.assign(slots_.size(), 0);
+        last_ = 0;
+    }
+
+    std::size_t bytes() const {
+        return entries_.capacity() * sizeof(Entry) + cubes_.capacity() * sizeof(Cube) +
+               slots_.capacity() * sizeof(slots_[0]);
+    }
+
+  private:
+    struct Cube {
+        std::uint64_t key;
+        std::array<std::uint32_t, 64> number{};  // of the entry, from 1; 0 = empty
+    };
+    static constexpr std::uint64_t low_bits = 3ull << 42 | 3ull << 21 | 3ull;
+    static constexpr std::uint64_t cube_bits = ~low_bits;
+
+    static std::size_t within(std::uint64_t key) {
+        return (key >> 38 & 48) | (key >> 19 & 12) | (key & 3);
+    }
+
+    Cube& cube(std::uint64_t key) {
+        const std::uint64_t cube_key = key & cube_bits;
+        if (last_ < cubes_.size() && cubes_[last_].key == cube_key) return cubes_[last_];
+        if (2 * (cubes_.size() + 1) > slots_.size()) grow();
+        std::uint32_t& slot = slots_[slotOf(cube_key)];
+        if (slot == 0) {
+            cubes_.push_back({cube_key, {}});
+            slot = static_cast<std::uint32_t>(cubes_.size());
+        }
+        last_ = slot - 1;
+        return cubes_[last_];
+    }
+
+    std::size_t slotOf(std::uint64_t cube_key) const {
+        const std::size_t mask = slots_.size() - 1;
+        std::size_t slot = (cube_key * 0x9E3779B97F4A7C15ull >> 32) & mask;
+        while (slots_[slot] && cubes_[slots_[slot] - 1].key != cube_key) slot = (slot + 1) & mask;
+        return slot;
+    }
+
+    void grow() {
+        slots_.assign(slots_.empty() ? 1024 : 2 * slots_.size(), 0);
+        for (std::size_t i = 0; i < cubes_.size(); ++i) {
+            slots_[slotOf(cubes_[i].key)] = static_cast<std::uint32_t>(i + 1);
+        }
+    }
+
+    std::vector<std::uint32_t> slots_;  // number of the cube, from 1; 0 = empty
+    std::vector<Cube> cubes_;
+    std::vector<Entry> entries_;
+    std::size_t last_ = 0;  // cube asked for last
+};
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,121 @@
+#include "rgbd_graphslam/mapping/depth_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+std::string sizeText(int width, int height) {
+    return std::to_string(width) + "x" + std::to_string(height);
+}
+
+void checkImage(const RgbdImage& image, const Camera& camera) {
+    const std::string name = "the frame at " + std::to_string(image.stamp_s) + " s";
+    if (image.depth.type() != CV_16UC1) {
+        throw Error(name + " has no 16-bit depth image", "import the sequence again");
+    }
+    if (image.depth.cols != camera.width || image.depth.rows != camera.height) {
+        throw Error(name + " has a depth image of " + sizeText(image.depth.cols, image.depth.rows) +
+                        " pixels, its camera one of " + sizeText(camera.width, camera.height),
+                    "register depth to colour and import again");
+    }
+}
+
+cv::Mat1f metres(const cv::Mat& raw, double unit_m, double nearest_m) {
+    cv::Mat1f depth(raw.size());
+    const auto unit = static_cast<float>(unit_m), nearest = static_cast<float>(nearest_m);
+    for (int v = 0; v < raw.rows; ++v) {
+        const auto* in = raw.ptr<std::uint16_t>(v);
+        float* out = depth[v];
+        for (int u = 0; u < raw.cols; ++u) {
+            const float z = unit * in[u];
+            out[u] = z >= nearest ? z : 0.f;
+        }
+    }
+    return depth;
+}
+
+/** A neighbour without a reading says nothing. */
+bool jumps(float z, float neighbour, float tolerance) {
+    return neighbour > 0 && std::abs(neighbour - z) > tolerance;
+}
+
+cv::Mat3b colorOf(const RgbdImage& image) {
+    const cv::Size size = image.depth.size();
+    if (image.color.size() == size && image.color.type() == CV_8UC3) return image.color;
+    cv::Mat3b color(size, cv::Vec3b(160, 160, 160));
+    if (image.grey.size() == size) cv::cvtColor(image.grey, color, cv::COLOR_GRAY2BGR);
+    return color;
+}
+
+}  // namespace
+
+RayTable::RayTable(const Camera& camera) : camera_(camera) {
+    directions_.reserve(static_cast<std::size_t>(camera.width) * camera.height);
+    for (int v = 0; v < camera.height; ++v) {
+        for (int u = 0; u < camera.width; ++u) {
+            const Eigen::Vector2d seen(u, v);
+            const Eigen::Vector2d pixel = camera.hasDistortion() ? camera.undistort(seen) : seen;
+            directions_.push_back(
+                camera.unproject(pixel.x(), pixel.y(), 1).head<2>().cast<float>());
+        }
+    }
+    if (!camera.hasDistortion()) return;
+    rectified_from_.reserve(directions_.size());
+    for (int v = 0; v < camera.height; ++v) {
+        for (int u = 0; u < camera.width; ++u) {
+            const Eigen::Vector2d seen = camera.distort({u, v});
+            const int su = static_cast<int>(std::lround(seen.x()));
+            const int sv = static_cast<int>(std::lround(seen.y()));
+            const bool inside = su >= 0 && sv >= 0 && su < camera.width && sv < camera.height;
+            rectified_from_.push_back(inside ? sv * camera.width + su : -1);
+        }
+    }
+}
+
+cv::Mat1f RayTable::rectified(const cv::Mat1f& depth) const {
+    if (rectified_from_.empty()) return depth;
+    cv::Mat1f out(depth.size());
+    const auto* in = depth.ptr<float>();
+    auto* pixel = out.ptr<float>();
+    for (const int from : rectified_from_) *pixel++ = from < 0 ? 0.f : in[from];
+    return out;
+}
+
+cv::Mat1f cleanDepth(const RgbdImage& image, const Camera& camera, const MapOptions& options,
+                     const DepthNoise& noise) {
+    checkImage(image, camera);
+    const cv::Mat1f depth = metres(image.depth, image.depth_unit_m, options.min_range_m);
+    cv::Mat1f clean = depth.clone();
+    const auto ratio = static_cast<float>(options.edge_ratio);
+    const auto a = static_cast<float>(noise.a), b = static_cast<float>(noise.b),
+               c = static_cast<float>(noise.c);
+    for (int v = 0; v < depth.rows; ++v) {
+        const float *row = depth[v], *above = depth[std::max(v - 1, 0)];
+        const float* below = depth[std::min(v + 1, depth.rows - 1)];
+        float* out = clean[v];
+        for (int u = 0; u < depth.cols; ++u) {
+            const float z = row[u];
+            const float tolerance = ratio * z + 3 * (a + b * (z - c) * (z - c));
+            const bool edge = jumps(z, above[u], tolerance) | jumps(z, below[u], tolerance) |
+                              jumps(z, row[std::max(u - 1, 0)], tolerance) |
+                              jumps(z, row[std::min(u + 1, depth.cols - 1)], tolerance);
+            if (edge) out[u] = 0;
+        }
+    }
+    return clean;
+}
+
+DepthView::DepthView(const RgbdImage& image, const RayTable& ray_table, const MapOptions& options)
+    : rays(ray_table),
+      depth(cleanDepth(image, ray_table.camera(), options)),
+      color(colorOf(image)),
+      sight(ray_table.rectified(depth)),
+      max_range_m(options.max_range_m) {}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,61 @@
+#include "rgbd_graphslam/mapping/keyframe_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <vector>
+
+#include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/progress.h"
+#include "rgbd_graphslam/dataset/mrpt_conversions.h"
+#include "rgbd_graphslam/dataset/rawlog_reader.h"
+#include "rgbd_graphslam/dataset/rgbd_observation.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr double stamp_tolerance_s = 5e-4;
+
+std::optional<std::size_t> poseAt(const Trajectory& poses, double stamp_s) {
+    const auto near =
+        std::lower_bound(poses.begin(), poses.end(), stamp_s - stamp_tolerance_s,
+                         [](const StampedPose& pose, double s) { return pose.stamp_s < s; });
+    if (near == poses.end() || near->stamp_s > stamp_s + stamp_tolerance_s) return std::nullopt;
+    return static_cast<std::size_t>(near - poses.begin());
+}
+
+}  // namespace
+
+std::size_t forEachKeyframe(const std::string& rawlog, const Trajectory& keyframes,
+                            const std::string& label,
+                            const std::function<void(const Keyframe3D&)>& consume) {
+    RawlogReader reader(rawlog);
+    Progress progress(label, keyframes.size(), "keyframes");
+    std::vector<bool> seen(keyframes.size());
+    std::size_t found = 0;
+    while (found < keyframes.size()) {
+        const auto observation = reader.next();
+        if (!observation) break;
+        const auto frame =
+            std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation);
+        if (!frame || !frame->hasRangeImage) continue;
+        const auto index = poseAt(keyframes, toSeconds(frame->timestamp));
+        if (!index || seen[*index]) continue;
+        consume({*index, keyframes[*index], toRgbdImage(frame), cameraOf(*frame)});
+        seen[*index] = true;
+        progress.update(++found);
+    }
+    if (found == 0) {
+        throw Error("'" + rawlog + "' has no depth image at the stamp of any keyframe",
+                    "give --rawlog the file that the keyframes come from");
+    }
+    if (found < keyframes.size()) {
+        sayWarning(std::to_string(keyframes.size() - found) +
+                   " keyframes have no depth image in '" + rawlog +
+                   "' and are left out of the maps");
+    }
+    return found;
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,206 @@
+#include "rgbd_graphslam/mapping/map_builder.h"
+
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <octomap/ColorOcTree.h>
+#include <octomap/OcTree.h>
+
+#include <algorithm>
+#include <chrono>
+#include <opencv2/imgcodecs.hpp>
+#include <optional>
+
+#include "rgbd_graphslam/core/atomic_file.h"
+#include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/mrpt_conversions.h"
+#include "rgbd_graphslam/dataset/rawlog_reader.h"
+#include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/mapping/dense_mapper.h"
+#include "rgbd_graphslam/mapping/keyframe_reader.h"
+#include "rgbd_graphslam/mapping/map_files.h"
+#include "rgbd_graphslam/mapping/map_scene.h"
+#include "rgbd_graphslam/mapping/plan_view.h"
+#include "rgbd_graphslam/mapping/simple_map.h"
+#include "rgbd_graphslam/mapping/upright.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double millisecondsSince(Clock::time_point start) {
+    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+std::optional<Eigen::Vector3d> specificForce(const mrpt::obs::CObservationIMU& imu) {
+    using namespace mrpt::obs;
+    if (!imu.has(IMU_X_ACC) || !imu.has(IMU_Y_ACC) || !imu.has(IMU_Z_ACC)) return std::nullopt;
+    return Eigen::Vector3d(imu.get(IMU_X_ACC), imu.get(IMU_Y_ACC), imu.get(IMU_Z_ACC));
+}
+
+/** All accelerometer readings of a rawlog, in the axes of its camera. */
+std::vector<SpecificForce> readAccelerometer(const std::string& rawlog) {
+    std::vector<SpecificForce> readings;
+    std::optional<SE3> T_base_cam;
+    RawlogReader reader(rawlog);
+    while (const auto observation = reader.next()) {
+        const auto frame =
+            std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation);
+        if (frame && !T_base_cam) T_base_cam = cameraOnRobot(*frame);
+        const auto imu = std::dynamic_pointer_cast<mrpt::obs::CObservationIMU>(observation);
+        const auto force = imu ? specificForce(*imu) : std::nullopt;
+        if (force)
+            readings.push_back({toSeconds(imu->timestamp), toSE3(imu->sensorPose).R * *force});
+    }
+    if (!T_base_cam)
+        throw Error("'" + rawlog + "' holds no RGB-D frame", "give a rawlog of an RGB-D camera");
+    for (auto& reading : readings)
+        reading.in_camera = T_base_cam->R.transpose() * reading.in_camera;
+    return readings;
+}
+
+/** Evenly chosen, at most `count`. */
+Trajectory someOf(const Trajectory& poses, std::size_t count) {
+    Trajectory some;
+    const std::size_t step = std::max<std::size_t>(1, (poses.size() + count - 1) / count);
+    for (std::size_t i = 0; i < poses.size(); i += step) some.push_back(poses[i]);
+    return some;
+}
+
+std::vector<SurfacePatch> readPatches(const MapInputs& inputs, const MapOptions& options) {
+    constexpr std::size_t enough_keyframes = 60;
+    std::vector<SurfacePatch> patches;
+    std::optional<RayTable> rays;
+    forEachKeyframe(inputs.rawlog, someOf(inputs.keyframes, enough_keyframes), "finding the floor",
+                    [&](const Keyframe3D& keyframe) {
+                        if (!rays) rays.emplace(keyframe.camera);
+                        const DepthView view(keyframe.image, *rays, options);
+                        const auto found = surfacePatches(keyframe.pose.T_world_cam, view);
+                        patches.insert(patches.end(), found.begin(), found.end());
+                    });
+    return patches;
+}
+
+/** Cameras are mostly held upright. */
+Eigen::Vector3d meanCameraTop(const Trajectory& poses) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const auto& pose : poses) sum -= pose.T_world_cam.R.col(1);
+    return sum.normalized();
+}
+
+Eigen::Vector3d findUp(const MapInputs& inputs, const MapOptions& options,
+                       const std::vector<SurfacePatch>& patches) {
+    const Trajectory& poses = inputs.trajectory.empty() ? inputs.keyframes : inputs.trajectory;
+    if (options.upright == "gravity") {
+        if (const auto up = upFromAccelerometer(readAccelerometer(inputs.rawlog), poses))
+            return *up;
+        sayInfo("no usable accelerometer in the rawlog: up is taken from the floor");
+    }
+    if (options.upright != "none") {
+        if (const auto up = upFromFloor(patches, meanCameraTop(inputs.keyframes))) return *up;
+    }
+    sayWarning("up is taken from the first camera, as if it had been level");
+    return -inputs.keyframes.front().T_world_cam.R.col(1);
+}
+
+void checkInputs(const MapInputs& inputs) {
+    if (inputs.keyframes.empty())
+        throw Error("there is no keyframe to make maps of", "check the trajectory");
+    const int count = static_cast<int>(inputs.keyframes.size());
+    for (const MapLoopEdge& loop : inputs.loops) {
+        if (std::min(loop.from, loop.to) >= 0 && std::max(loop.from, loop.to) < count) continue;
+        throw Error("a loop names keyframe " + std::to_string(std::max(loop.from, loop.to)) +
+                    " of " + std::to_string(count));
+    }
+}
+
+/** What one pass over the rawlog makes. */
+struct Maps {
+    std::optional<Camera> camera;
+    std::optional<RayTable> rays;
+    std::optional<DenseMapper> dense;
+    mrpt::maps::CSimpleMap simple;
+    double insert_ms = 0;
+
+    void add(const Keyframe3D& keyframe, const MapOptions& options) {
+        if (!dense) {
+            camera = keyframe.camera;
+            rays.emplace(keyframe.camera);
+            dense.emplace(options, keyframe.camera);
+        }
+        const auto start = Clock::now();
+        const SE3& T = keyframe.pose.T_world_cam;
+        dense->insert(T, keyframe.image);
+        insert_ms += millisecondsSince(start);
+        addKeyframe(simple, keyframe.pose.stamp_s, T, DepthView(keyframe.image, *rays, options),
+                    options);
+    }
+};
+
+MapSummary writeFiles(const MapInputs& inputs, const Maps& maps, const std::string& folder) {
+    const auto path = [&](const char* name) {
+        sayDetail(std::string("writing ") + name);
+        return folder + "/" + name;
+    };
+    MapSummary summary;
+    const PointMap points = maps.dense->points();
+    savePly(path("points.ply"), points);
+    savePcd(path("points.pcd"), points);
+    saveMetricMap(path("points.metricmap"), points);
+    const auto tree = maps.dense->octree(LeafValues::MaximumLikelihood);
+    saveBinaryOcTree(path("octree.bt"), *tree);
+    saveColorOcTree(path("octree.ot"), *maps.dense->colorOctree());
+    mrpt::maps::COccupancyGridMap2D grid;
+    maps.dense->grid(grid);
+    saveMrptObject(path("grid.gridmap.gz"), grid);
+    saveRosGrid(path("grid"), grid);
+    saveMrptObject(path("map.simplemap"), maps.simple);
+    saveMrptObject(path("scene.3Dscene"), makeScene(inputs, points, *maps.camera));
+    const cv::Mat picture = planView(inputs, points);
+    writeAtomically(path("map.png"),
+                    [&](const std::string& temporary) { return cv::imwrite(temporary, picture); });
+    summary.points = points.size();
+    summary.octree_leaves = tree->getNumLeafNodes();
+    summary.grid_width = static_cast<int>(grid.getSizeX());
+    summary.grid_height = static_cast<int>(grid.getSizeY());
+    return summary;
+}
+
+}  // namespace
+
+SE3 uprightFromWorld(const MapInputs& inputs, const MapOptions& options) {
+    checkInputs(inputs);
+    const auto patches = readPatches(inputs, options);
+    const Eigen::Vector3d up = findUp(inputs, options, patches);
+    const auto floor = floorHeight(patches, up);
+    if (!floor) sayWarning("no level surface was seen: the first camera is taken to be at z = 0");
+    const SE3& T_first = inputs.keyframes.front().T_world_cam;
+    return uprightFrame(up, floor.value_or(up.dot(T_first.t)), T_first);
+}
+
+MapInputs transformed(const SE3& T_a_world, MapInputs inputs) {
+    for (Trajectory* poses :
+         {&inputs.keyframes, &inputs.trajectory, &inputs.keyframes_before_loops}) {
+        for (auto& pose : *poses) pose.T_world_cam = T_a_world * pose.T_world_cam;
+    }
+    return inputs;
+}
+
+MapSummary writeMaps(const MapInputs& inputs, const MapOptions& options,
+                     const std::string& out_folder) {
+    checkInputs(inputs);
+    makeWritableFolder(out_folder);
+    Maps maps;
+    const std::size_t found =
+        forEachKeyframe(inputs.rawlog, inputs.keyframes, "mapping",
+                        [&](const Keyframe3D& keyframe) { maps.add(keyframe, options); });
+    MapSummary summary = writeFiles(inputs, maps, out_folder);
+    summary.keyframes = found;
+    summary.insert_ms = maps.insert_ms / static_cast<double>(found);
+    summary.megabytes = 1e-6 * static_cast<double>(maps.dense->bytes());
+    return summary;
+}
+
+}  // namespace rgbd_graphslam

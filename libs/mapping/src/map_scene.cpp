@@ -1,0 +1,114 @@
+#include "rgbd_graphslam/mapping/map_scene.h"
+
+#include <mrpt/opengl/CGridPlaneXY.h>
+#include <mrpt/opengl/CPointCloudColoured.h>
+#include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/stock_objects.h>
+
+#include <cmath>
+
+namespace rgbd_graphslam {
+namespace {
+
+using mrpt::img::TColor;
+
+const TColor background(236, 239, 243), floor_color(190, 197, 206, 160),
+    trajectory_color(240, 120, 20), keyframe_color(30, 90, 200), loop_color(215, 25, 60),
+    before_color(130, 130, 140, 150);
+constexpr double frustum_depth_m = 0.12;
+
+mrpt::math::TPoint3D point(const Eigen::Vector3d& p) {
+    return {p.x(), p.y(), p.z()};
+}
+
+mrpt::opengl::CSetOfLines::Ptr lines(const char* name, const TColor& color, float width_px) {
+    auto object = mrpt::opengl::CSetOfLines::Create();
+    object->setName(name);
+    object->setColor_u8(color);
+    object->setLineWidth(width_px);
+    return object;
+}
+
+void addSegment(mrpt::opengl::CSetOfLines& object, const Eigen::Vector3d& a,
+                const Eigen::Vector3d& b) {
+    object.appendLine(mrpt::math::TSegment3D(point(a), point(b)));
+}
+
+mrpt::opengl::CSetOfLines::Ptr path(const char* name, const Trajectory& poses, const TColor& color,
+                                    float width_px) {
+    auto object = lines(name, color, width_px);
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+        addSegment(*object, poses[i - 1].T_world_cam.t, poses[i].T_world_cam.t);
+    }
+    return object;
+}
+
+void addFrustum(mrpt::opengl::CSetOfLines& object, const SE3& T, const Camera& camera) {
+    const double w = camera.width - 1, h = camera.height - 1;
+    const auto corner = [&](double u, double v) {
+        return T * camera.unproject(u, v, frustum_depth_m);
+    };
+    const Eigen::Vector3d corners[] = {corner(0, 0), corner(w, 0), corner(w, h), corner(0, h)};
+    for (int i = 0; i < 4; ++i) {
+        addSegment(object, T.t, corners[i]);
+        addSegment(object, corners[i], corners[(i + 1) % 4]);
+    }
+}
+
+mrpt::opengl::CSetOfLines::Ptr frustums(const Trajectory& keyframes, const Camera& camera) {
+    auto object = lines(scene_names::keyframes, keyframe_color, 1);
+    for (const auto& keyframe : keyframes) addFrustum(*object, keyframe.T_world_cam, camera);
+    return object;
+}
+
+mrpt::opengl::CSetOfLines::Ptr loopLines(const MapInputs& inputs) {
+    auto object = lines(scene_names::loops, loop_color, 2);
+    for (const MapLoopEdge& loop : inputs.loops) {
+        addSegment(*object, inputs.keyframes[loop.from].T_world_cam.t,
+                   inputs.keyframes[loop.to].T_world_cam.t);
+    }
+    return object;
+}
+
+mrpt::opengl::CPointCloudColoured::Ptr cloud(const PointMap& points) {
+    auto object = mrpt::opengl::CPointCloudColoured::Create();
+    object->setName(scene_names::points);
+    object->setPointSize(2);
+    object->reserve(points.size());
+    for (const auto& [p, rgb] : points) {
+        object->push_back(p.x(), p.y(), p.z(), rgb[0] / 255.f, rgb[1] / 255.f, rgb[2] / 255.f);
+    }
+    return object;
+}
+
+mrpt::opengl::CGridPlaneXY::Ptr floorGrid(const PointMap& points) {
+    Eigen::Vector3f low(-1, -1, 0), high(1, 1, 0);
+    for (const MapPoint& point : points) {
+        low = low.cwiseMin(point.position);
+        high = high.cwiseMax(point.position);
+    }
+    auto object =
+        mrpt::opengl::CGridPlaneXY::Create(std::floor(low.x()), std::ceil(high.x()),
+                                           std::floor(low.y()), std::ceil(high.y()), 0.f, 1.f);
+    object->setName(scene_names::floor);
+    object->setColor_u8(floor_color);
+    return object;
+}
+
+}  // namespace
+
+mrpt::opengl::COpenGLScene makeScene(const MapInputs& inputs, const PointMap& points,
+                                     const Camera& camera) {
+    mrpt::opengl::COpenGLScene scene;
+    scene.getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(background));
+    scene.insert(floorGrid(points));
+    scene.insert(cloud(points));
+    scene.insert(path(scene_names::trajectory, inputs.trajectory, trajectory_color, 2));
+    scene.insert(frustums(inputs.keyframes, camera));
+    scene.insert(loopLines(inputs));
+    scene.insert(
+        path(scene_names::graph_before_loops, inputs.keyframes_before_loops, before_color, 1));
+    return scene;
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,76 @@
+#include "rgbd_graphslam/mapping/run_folder.h"
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace fs = std::filesystem;
+namespace {
+
+nlohmann::json readSummary(const fs::path& path) {
+    std::ifstream in(path);
+    if (!in) return nlohmann::json::object();
+    auto summary = nlohmann::json::parse(in, nullptr, false);
+    if (!summary.is_object()) {
+        throw Error("'" + path.string() + "' is no JSON object", "run rgbd-slam again");
+    }
+    return summary;
+}
+
+/** Paths are as they were given to rgbd-slam, from whichever folder that ran in. */
+std::string findRawlog(const nlohmann::json& summary, const fs::path& folder) {
+    const auto found = summary.find("rawlog");
+    if (found == summary.end() || !found->is_string()) {
+        throw Error("'" + (folder / "summary.json").string() + "' does not name the rawlog",
+                    "give --rawlog FILE");
+    }
+    const fs::path path = found->get<std::string>();
+    for (const fs::path& candidate : {path, folder / path, folder / path.filename()}) {
+        if (fs::is_regular_file(candidate)) return candidate.string();
+    }
+    throw Error("the rawlog '" + path.string() + "' of this run is gone", "give --rawlog FILE");
+}
+
+std::vector<MapLoopEdge> loopsOf(const nlohmann::json& summary) {
+    std::vector<MapLoopEdge> loops;
+    for (const auto& edge : summary.value("loop_edges", nlohmann::json::array())) {
+        const auto numbers = edge.get<std::vector<int>>();
+        if (numbers.size() == 3) loops.push_back({numbers[0], numbers[1], numbers[2]});
+    }
+    return loops;
+}
+
+}  // namespace
+
+MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
+    const fs::path root(folder);
+    if (!fs::is_directory(root))
+        throw Error("'" + folder + "' is no folder", "give the output folder of rgbd-slam");
+    const auto summary = readSummary(root / "summary.json");
+    MapInputs inputs;
+    inputs.keyframes = readTumTrajectory((root / "keyframes.txt").string());
+    inputs.trajectory = readTumTrajectory((root / "trajectory.txt").string());
+    inputs.rawlog = rawlog.empty() ? findRawlog(summary, root) : rawlog;
+    try {
+        inputs.loops = loopsOf(summary);
+    } catch (const nlohmann::json::exception&) {
+        throw Error("'loop_edges' in '" + (root / "summary.json").string() +
+                        "' is no list of [from, to, inliers]",
+                    "run rgbd-slam again");
+    }
+    const fs::path before = root / "keyframes_before_loops.txt";
+    if (fs::exists(before)) inputs.keyframes_before_loops = readTumTrajectory(before.string());
+    return inputs;
+}
+
+MapOptions readRunOptions(const std::string& folder) {
+    MapOptions options;
+    const fs::path path = fs::path(folder) / "config.ini";
+    if (fs::exists(path)) IniFile::fromFile(path.string()).loadKnown({&options});
+    return options;
+}
+
+}  // namespace rgbd_graphslam
