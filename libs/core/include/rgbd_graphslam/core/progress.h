@@ -17,6 +17,9 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
+    /** Corrects an estimated total. */
+    void expect(std::size_t total) { total_ = total; }
+
     /** \param done steps finished so far
      *  \param note appended to the line, e.g. "12 keyframes" */
     void update(std::size_t done, const std::string& note = {});

@@ -1,0 +1,81 @@
+/** rgbd-slam: a rawlog in, a folder with trajectory, graph and maps out. */
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/graphslam/slam_job.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr int interrupted_exit_code = 130;
+
+struct Arguments {
+    std::string ini, rawlog, out_folder;
+    std::vector<std::string> assignments;
+    int threads = 0, max_frames = 0;
+    bool no_maps = false, profile = false, print_config = false, quiet = false, verbose = false;
+};
+
+void declare(CLI::App& app, Arguments& args) {
+    app.set_version_flag("--version", RGBD_VERSION);
+    app.add_option("INI", args.ini, "Settings, e.g. ini/default.ini");
+    app.add_option("RAWLOG", args.rawlog, "Rawlog with RGB-D frames");
+    app.add_option("-o,--out", args.out_folder, "Folder for the results, made where missing");
+    app.add_option("--set", args.assignments, "Section.key=value instead of the ini's; repeatable")
+        ->allow_extra_args(false);
+    app.add_option("--threads", args.threads, "As --set RunOptions.threads=N");
+    app.add_option("--max-frames", args.max_frames, "As --set RunOptions.max_frames=N");
+    app.add_flag("--no-maps", args.no_maps, "As --set RunOptions.dense_maps=false");
+    app.add_flag("--profile", args.profile, "Print the times of all stages");
+    app.add_flag("--print-config", args.print_config,
+                 "Print all settings as a commented ini, then stop");
+    app.add_flag("-q,--quiet", args.quiet, "Only errors and results");
+    app.add_flag("-v,--verbose", args.verbose, "Say more");
+}
+
+JobOptions optionsOf(const CLI::App& app, const Arguments& args) {
+    IniFile ini = args.ini.empty() ? IniFile::fromText("", "") : IniFile::fromFile(args.ini);
+    for (const std::string& assignment : args.assignments) ini.override(assignment);
+    if (app.count("--threads")) ini.override("RunOptions.threads=" + std::to_string(args.threads));
+    if (app.count("--max-frames")) {
+        ini.override("RunOptions.max_frames=" + std::to_string(args.max_frames));
+    }
+    if (args.no_maps) ini.override("RunOptions.dense_maps=false");
+    JobOptions options;
+    ini.load(options.all());
+    return options;
+}
+
+int run(const CLI::App& app, const Arguments& args) {
+    const JobOptions options = optionsOf(app, args);
+    if (args.print_config) {
+        std::fputs(configText(options).c_str(), stdout);
+        return 0;
+    }
+    if (args.rawlog.empty() || args.out_folder.empty()) {
+        throw Error("the rawlog or the output folder is missing",
+                    "call rgbd-slam INI RAWLOG -o OUT, see --help");
+    }
+    const SlamJob job{args.rawlog, args.out_folder, options};
+    const JobReport report = runSlamJob(job);
+    if (args.profile) std::fputs((profileTable(report) + "\n").c_str(), stdout);
+    std::fputs(resultTable(job, report).c_str(), stdout);
+    if (!report.damage.empty()) throw Error(report.damage);
+    return report.interrupted ? interrupted_exit_code : 0;
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
+
+int main(int argc, char** argv) {
+    using namespace rgbd_graphslam;
+    CLI::App app("RGB-D SLAM on an MRPT rawlog: trajectory, pose graph, points, octree, grid");
+    Arguments args;
+    declare(app, args);
+    CLI11_PARSE(app, argc, argv);
+    if (args.quiet) setVerbosity(Verbosity::Quiet);
+    if (args.verbose) setVerbosity(Verbosity::Verbose);
+    return runMain("rgbd-slam", [&] { return run(app, args); });
+}

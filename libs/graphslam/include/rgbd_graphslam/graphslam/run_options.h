@@ -1,0 +1,18 @@
+/** Settings of a whole run. */
+#pragma once
+#include "rgbd_graphslam/core/options.h"
+
+namespace rgbd_graphslam {
+
+struct RunOptions : Options {
+    int threads = 2;
+    int frames_ahead = 8;
+    int max_frames = 0;
+    bool dense_maps = true;
+
+    const char* section() const override { return "RunOptions"; }
+    const char* about() const override { return "The run as a whole"; }
+    void describe(OptionVisitor& v) override;
+};
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,60 @@
+/** The main job: a rawlog in, a folder with trajectory, graph and maps out. */
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/graphslam/job_options.h"
+#include "rgbd_graphslam/slam/visual_slam.h"
+
+namespace rgbd_graphslam {
+
+struct SlamJob {
+    std::string rawlog, out_folder;
+    JobOptions options;
+};
+
+/** What came of a job. */
+struct JobReport {
+    std::size_t frames = 0, tracked = 0, recovered = 0, lost = 0;
+    /** Frames left out because their stamp was not later than the one before. */
+    std::size_t out_of_order = 0;
+    std::size_t keyframes = 0, culled_keyframes = 0, landmarks = 0;
+    int loops = 0;
+    double path_m = 0;
+    /** Against the rawlog's ground truth, where it has one. */
+    std::optional<double> ate_rmse_m;
+    std::size_t ate_pairs = 0;
+
+    /** From the first frame to the last: wall time, and CPU time of all threads. */
+    double tracking_wall_s = 0, tracking_cpu_s = 0;
+    double maps_wall_s = 0;
+    double peak_memory_mb = 0;
+    std::vector<VisualSlam::StageTime> stages;
+
+    bool interrupted = false;
+    /** Why the job ended before the rawlog did, naming the frame; empty when it did not. */
+    std::string damage;
+
+    double framesPerSecond() const { return tracking_wall_s > 0 ? frames / tracking_wall_s : 0; }
+    double cpuMsAFrame() const { return frames > 0 ? 1e3 * tracking_cpu_s / frames : 0; }
+};
+
+/** Runs SLAM over the whole rawlog and writes the folder: trajectory.txt, frames.csv,
+ *  keyframes.txt, graph.graph, config.ini, the maps unless switched off, and summary.json last. All
+ *  poses are of the camera's optical frame (in the graph: of the robot) in a world with z up and
+ *  the floor at 0. The trajectory is byte-identical for any number of threads.
+ *
+ *  A rawlog that is cut off or damaged, and SIGINT or SIGTERM, end the tracking; what was mapped by
+ *  then is written and the report says so.
+ *  \throws Error when the rawlog has no RGB-D frame, nothing could be mapped, or the folder cannot
+ *          be written */
+JobReport runSlamJob(const SlamJob& job);
+
+/** A few lines for people. */
+std::string resultTable(const SlamJob& job, const JobReport& report);
+
+/** Mean, median, 95th percentile and maximum of every stage, in ms of CPU and wall time. */
+std::string profileTable(const JobReport& report);
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,128 @@
+#include "rgbd_graphslam/graphslam/deciders.h"
+
+#include <mrpt/config/CConfigFile.h>
+#include <mrpt/obs/obs_utils.h>
+
+#include <vector>
+
+#include "rgbd_graphslam/dataset/rgbd_observation.h"
+
+namespace rgbd_graphslam {
+using mrpt::obs::CObservation3DRangeScan;
+namespace {
+
+/** Warnings of MRPT's deciders tell of what is as it should be, and every record is kept. */
+template <class Decider>
+void nameAndHush(Decider& decider, const char* name) {
+    decider.setClassName(name);
+    decider.setMinLoggingLevel(mrpt::system::LVL_ERROR);
+}
+
+void track(SharedSlam& shared, const CObservation3DRangeScan::Ptr& frame) {
+    if (!shared.slam) startSlam(shared, *frame);
+    if (!shared.prepared) shared.prepared = shared.slam->prepare(toRgbdImage(frame));
+    Frame prepared = std::move(*shared.prepared);
+    shared.prepared.reset();
+    shared.last = shared.slam->track(std::move(prepared));
+    shared.new_keyframe = shared.last.keyframe;
+}
+
+/** Those keys of an ini file that are ours. */
+IniFile ownSections(const std::string& path, const std::vector<Options*>& structs) {
+    const mrpt::config::CConfigFile file(path);
+    IniFile own = IniFile::fromText("", path);
+    for (const Options* options : structs) {
+        std::vector<std::string> keys;
+        file.getAllKeys(options->section(), keys);
+        for (const std::string& key : keys) {
+            own.override(std::string(options->section()) + "." + key + "=" +
+                         file.read_string(options->section(), key, ""));
+        }
+    }
+    return own;
+}
+
+}  // namespace
+
+COrbKeyframeNRD::COrbKeyframeNRD() {
+    nameAndHush(*this, "COrbKeyframeNRD");
+}
+
+void COrbKeyframeNRD::loadParams(const std::string& ini) {
+    const auto structs = m_graph->shared->options.all();
+    ownSections(ini, structs).load(structs);
+}
+
+bool COrbKeyframeNRD::updateState(mrpt::obs::CActionCollection::Ptr,
+                                  mrpt::obs::CSensoryFrame::Ptr observations,
+                                  mrpt::obs::CObservation::Ptr observation) {
+    SharedSlam& shared = *m_graph->shared;
+    shared.new_keyframe.reset();
+    const auto frame =
+        mrpt::obs::utils::getObservation<CObservation3DRangeScan>(observations, observation);
+    if (!frame) return false;
+    track(shared, frame);
+    if (shared.new_keyframe.value_or(0) == 0) return false;
+    return registerNewNodeAtEnd(
+        robotEdge(shared.slam->odometryEdge(*shared.new_keyframe), shared.T_base_cam));
+}
+
+COrbKeyframeNRD::global_pose_t COrbKeyframeNRD::getCurrentRobotPosEstimation() const {
+    const SharedSlam& shared = *m_graph->shared;
+    if (!shared.slam) return {};
+    const bool registers_root = m_prev_registered_nodeID == mrpt::graphs::INVALID_NODEID;
+    const SE3 T_world_cam = registers_root && shared.new_keyframe
+                                ? shared.slam->keyframes().front().T_world_cam
+                                : shared.last.T_world_cam;
+    return global_pose_t(robotPose(T_world_cam, shared.T_base_cam));
+}
+
+COrbLoopClosureERD::COrbLoopClosureERD() {
+    nameAndHush(*this, "COrbLoopClosureERD");
+}
+
+bool COrbLoopClosureERD::updateState(mrpt::obs::CActionCollection::Ptr,
+                                     mrpt::obs::CSensoryFrame::Ptr, mrpt::obs::CObservation::Ptr) {
+    SharedSlam& shared = *m_graph->shared;
+    shared.loops_found = false;
+    if (shared.new_keyframe) {
+        for (const PoseEdge& loop : shared.slam->findLoops(*shared.new_keyframe)) {
+            registerNewEdge(loop.from, loop.to, robotEdge(loop, shared.T_base_cam));
+        }
+    }
+    m_just_inserted_lc = shared.loops_found;
+    return true;
+}
+
+void COrbLoopClosureERD::registerNewEdge(const mrpt::graphs::TNodeID& from,
+                                         const mrpt::graphs::TNodeID& to,
+                                         const constraint_t& edge) {
+    m_graph->insertEdge(from, to, edge);
+    m_graph->shared->loops_found = true;
+    ++m_graph->shared->loop_edges;
+}
+
+void COrbLoopClosureERD::getEdgesStats(std::map<std::string, int>* edge_type_to_num) const {
+    (*edge_type_to_num)["lc"] = m_graph->shared->loop_edges;
+}
+
+CCeresGSO::CCeresGSO() {
+    nameAndHush(*this, "CCeresGSO");
+}
+
+bool CCeresGSO::updateState(mrpt::obs::CActionCollection::Ptr, mrpt::obs::CSensoryFrame::Ptr,
+                            mrpt::obs::CObservation::Ptr) {
+    just_optimized_ = m_graph->shared->loops_found;
+    if (just_optimized_) optimizeGraph();
+    return true;
+}
+
+void CCeresGSO::optimizeGraph() {
+    SharedSlam& shared = *m_graph->shared;
+    PoseGraph graph = shared.slam->poseGraph();
+    shared.times.measure("optimise", [&] { optimizePoseGraph(graph, shared.options.pose_graph); });
+    shared.slam->correct(graph.nodes);
+    updateNodes(*m_graph);
+}
+
+}  // namespace rgbd_graphslam

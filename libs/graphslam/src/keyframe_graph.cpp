@@ -1,0 +1,63 @@
+#include "rgbd_graphslam/graphslam/keyframe_graph.h"
+
+#include "rgbd_graphslam/dataset/mrpt_conversions.h"
+#include "rgbd_graphslam/dataset/rgbd_observation.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+/** Angular velocity in the reference frame for rates of yaw, pitch and roll. */
+Eigen::Matrix3d angularVelocityOfRates(double yaw, double pitch) {
+    const Eigen::Matrix3d Rz = rotationExp({0, 0, yaw});
+    const Eigen::Matrix3d Ry = rotationExp({0, pitch, 0});
+    Eigen::Matrix3d rates;
+    rates << Eigen::Vector3d::UnitZ(), Rz.col(1), Rz * Ry.col(0);
+    return rates;
+}
+
+/** Derivative of a camera edge's tangent vector with respect to (x, y, z, yaw, pitch, roll) of the
+ *  robot edge T_base_cam * T_from_to * T_base_cam^-1. */
+Matrix6d tangentOfParameters(const SE3& T_from_to, const SE3& T_base_cam,
+                             const mrpt::poses::CPose3D& robot_edge) {
+    const Eigen::Matrix3d to_tangent = (T_base_cam.R * T_from_to.R).transpose();
+    const Eigen::Matrix3d rotation =
+        to_tangent * angularVelocityOfRates(robot_edge.yaw(), robot_edge.pitch());
+    Matrix6d derivative;
+    derivative << to_tangent, skew(T_base_cam.inverse().t) * rotation, Eigen::Matrix3d::Zero(),
+        rotation;
+    return derivative;
+}
+
+}  // namespace
+
+void startSlam(SharedSlam& shared, const mrpt::obs::CObservation3DRangeScan& frame) {
+    shared.T_base_cam = cameraOnRobot(frame);
+    shared.slam = std::make_unique<VisualSlam>(shared.options, cameraOf(frame));
+}
+
+mrpt::poses::CPose3D robotPose(const SE3& T_world_cam, const SE3& T_base_cam) {
+    return toCPose3D(T_base_cam * T_world_cam * T_base_cam.inverse());
+}
+
+KeyframeGraph::constraint_t robotEdge(const PoseEdge& edge, const SE3& T_base_cam) {
+    KeyframeGraph::constraint_t result;
+    result.mean = robotPose(edge.T_from_to, T_base_cam);
+    const Matrix6d derivative = tangentOfParameters(edge.T_from_to, T_base_cam, result.mean);
+    const Matrix6d information = derivative.transpose() * edge.information * derivative;
+    for (int i = 0; i < 6; ++i) {
+        for (int j = 0; j < 6; ++j) result.cov_inv(i, j) = information(i, j);
+    }
+    return result;
+}
+
+void updateNodes(KeyframeGraph& graph) {
+    const SharedSlam& shared = *graph.shared;
+    for (const KeyframeView& keyframe : shared.slam->keyframes()) {
+        const auto node = graph.nodes.find(keyframe.id);
+        if (node == graph.nodes.end()) continue;
+        static_cast<mrpt::poses::CPose3D&>(node->second) =
+            robotPose(keyframe.T_world_cam, shared.T_base_cam);
+    }
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,129 @@
+#include "output_texts.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "rgbd_graphslam/evaluation/statistics.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+template <class... Values>
+std::string formatted(const char* format, Values... values) {
+    char text[256];
+    std::snprintf(text, sizeof(text), format, values...);
+    return text;
+}
+
+Json toJson(const StageFigures& figures) {
+    return {{"mean", figures.mean},
+            {"median", figures.median},
+            {"p95", figures.p95},
+            {"max", figures.max}};
+}
+
+Json stagesJson(const JobReport& report) {
+    Json stages;
+    for (const auto& stage : report.stages) {
+        stages[stage.stage] = {{"calls", stage.wall_ms.size()},
+                               {"cpu_ms", toJson(figuresOf(stage.cpu_ms))},
+                               {"wall_ms", toJson(figuresOf(stage.wall_ms))}};
+    }
+    return stages;
+}
+
+Json ateJson(const JobReport& report) {
+    if (!report.ate_rmse_m) return nullptr;
+    return {{"rmse_m", *report.ate_rmse_m}, {"pairs", report.ate_pairs}};
+}
+
+/** In order of the total time they took. */
+std::vector<VisualSlam::StageTime> byCost(std::vector<VisualSlam::StageTime> stages) {
+    const auto total = [](const auto& stage) {
+        return std::accumulate(stage.cpu_ms.begin(), stage.cpu_ms.end(), 0.0);
+    };
+    std::stable_sort(stages.begin(), stages.end(),
+                     [&](const auto& a, const auto& b) { return total(a) > total(b); });
+    return stages;
+}
+
+}  // namespace
+
+StageFigures figuresOf(const std::vector<double>& ms) {
+    const Statistics statistics = statisticsOf(ms);
+    return {statistics.mean, statistics.median, percentileOf(ms, 0.95), statistics.max};
+}
+
+std::string framesCsv(const std::vector<TrackedFrame>& frames) {
+    std::string text = "stamp_s,origin,inliers,keyframe\n";
+    for (const TrackedFrame& frame : frames) {
+        text += formatted("%.6f,%s,%d,", frame.stamp_s, toString(frame.origin), frame.inliers);
+        text += (frame.keyframe ? std::to_string(*frame.keyframe) : "") + "\n";
+    }
+    return text;
+}
+
+std::string summaryJson(const SlamJob& job, const JobReport& report) {
+    const Json summary = {
+        {"version", RGBD_VERSION},
+        {"config_hash", configHash(job.options)},
+        {"rawlog", std::filesystem::absolute(job.rawlog).lexically_normal().string()},
+        {"interrupted", report.interrupted},
+        {"damage", report.damage.empty() ? Json(nullptr) : Json(report.damage)},
+        {"frames", report.frames},
+        {"tracked", report.tracked},
+        {"recovered", report.recovered},
+        {"lost", report.lost},
+        {"out_of_order", report.out_of_order},
+        {"keyframes", report.keyframes},
+        {"culled_keyframes", report.culled_keyframes},
+        {"landmarks", report.landmarks},
+        {"loops", report.loops},
+        {"path_m", report.path_m},
+        {"ate", ateJson(report)},
+        {"frames_per_s", report.framesPerSecond()},
+        {"cpu_ms_a_frame", report.cpuMsAFrame()},
+        {"tracking_wall_s", report.tracking_wall_s},
+        {"maps_wall_s", report.maps_wall_s},
+        {"peak_memory_mb", report.peak_memory_mb},
+        {"stages", stagesJson(report)}};
+    return summary.dump(2) + "\n";
+}
+
+std::string resultTable(const SlamJob& job, const JobReport& report) {
+    std::string text = formatted("frames        %zu: %zu tracked, %zu recovered, %zu lost\n",
+                                 report.frames, report.tracked, report.recovered, report.lost);
+    if (report.out_of_order > 0) {
+        text += formatted("left out      %zu frames out of order\n", report.out_of_order);
+    }
+    text += formatted("keyframes     %zu\nloops         %d\npath          %.2f m\n",
+                      report.keyframes, report.loops, report.path_m);
+    if (report.ate_rmse_m) {
+        text += formatted("ATE RMSE      %.4f m over %zu poses\n", *report.ate_rmse_m,
+                          report.ate_pairs);
+    }
+    text += formatted("speed         %.1f frames/s, %.1f ms CPU a frame\n",
+                      report.framesPerSecond(), report.cpuMsAFrame());
+    text += formatted("peak memory   %.0f MB\n", report.peak_memory_mb);
+    return text + "written to    " + job.out_folder + "\n";
+}
+
+std::string profileTable(const JobReport& report) {
+    std::string text =
+        formatted("%-18s %7s | %27s | %27s\n%-18s %7s | %s | %s\n", "", "", "CPU ms", "wall ms",
+                  "stage", "calls", "  mean    p50    p95    max", "  mean    p50    p95    max");
+    for (const auto& stage : byCost(report.stages)) {
+        const StageFigures cpu = figuresOf(stage.cpu_ms), wall = figuresOf(stage.wall_ms);
+        text += formatted("%-18s %7zu | %6.2f %6.2f %6.2f %6.1f | %6.2f %6.2f %6.2f %6.1f\n",
+                          stage.stage.c_str(), stage.wall_ms.size(), cpu.mean, cpu.median, cpu.p95,
+                          cpu.max, wall.mean, wall.median, wall.p95, wall.max);
+    }
+    return text;
+}
+
+}  // namespace rgbd_graphslam

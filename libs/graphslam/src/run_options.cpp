@@ -1,0 +1,14 @@
+#include "rgbd_graphslam/graphslam/run_options.h"
+
+namespace rgbd_graphslam {
+
+void RunOptions::describe(OptionVisitor& v) {
+    v.integer("threads", threads, 1, 256, "",
+              "Threads of tracking and reading ahead; the result does not depend on it");
+    v.integer("frames_ahead", frames_ahead, 1, 1000, "frames",
+              "Most frames that are read before tracking gets to them");
+    v.integer("max_frames", max_frames, 0, 1000000000, "frames", "Stop after as many; 0 = never");
+    v.flag("dense_maps", dense_maps, "Build points, octree and grid after tracking");
+}
+
+}  // namespace rgbd_graphslam

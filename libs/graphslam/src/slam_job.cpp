@@ -1,0 +1,242 @@
+#include "rgbd_graphslam/graphslam/slam_job.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "interruption.h"
+#include "output_texts.h"
+#include "process_usage.h"
+#include "rgbd_graphslam/core/atomic_file.h"
+#include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/progress.h"
+#include "rgbd_graphslam/evaluation/ate.h"
+#include "rgbd_graphslam/graphslam/frame_stream.h"
+#include "rgbd_graphslam/graphslam/graph_slam_session.h"
+#include "rgbd_graphslam/mapping/map_builder.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+class Stopwatch {
+  public:
+    double seconds() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+Trajectory located(const std::vector<TrackedFrame>& frames) {
+    Trajectory trajectory;
+    for (const TrackedFrame& frame : frames) {
+        if (frame.origin != FrameOrigin::Lost)
+            trajectory.push_back({frame.stamp_s, frame.T_world_cam});
+    }
+    return trajectory;
+}
+
+double pathLength(const Trajectory& trajectory) {
+    double length = 0;
+    for (std::size_t i = 1; i < trajectory.size(); ++i) {
+        length += (trajectory[i].T_world_cam.t - trajectory[i - 1].T_world_cam.t).norm();
+    }
+    return length;
+}
+
+/** Keyframes chained by odometry edges alone. */
+Trajectory withoutLoops(const Trajectory& keyframes, const PoseGraph& graph) {
+    Trajectory chain = keyframes;
+    for (const PoseEdge& edge : graph.edges) {
+        if (edge.kind != EdgeKind::Odometry || edge.to != edge.from + 1) continue;
+        chain[edge.to].T_world_cam = chain[edge.from].T_world_cam * edge.T_from_to;
+    }
+    return chain;
+}
+
+class Job {
+  public:
+    explicit Job(const SlamJob& job)
+        : job_(job),
+          stream_(job.rawlog, job.options.run),
+          session_(job.options.slam, stream_.firstFrame()) {}
+
+    JobReport run() {
+        track();
+        session_.finish();
+        describe();
+        write();
+        return report_;
+    }
+
+  private:
+    void track();
+    void trackOne(const StreamedFrame& frame);
+    std::optional<StreamedFrame> nextFrame();
+    bool finished() const;
+    std::string progressNote() const;
+
+    void describe();
+    void countFrames();
+    void evaluate(const Trajectory& estimate);
+    void collectStages();
+
+    MapInputs mapInputs() const;
+    void write();
+    void writePoses(const MapInputs& upright, const SE3& T_up_world) const;
+    std::string path(const char* name) const { return job_.out_folder + "/" + name; }
+
+    const SlamJob& job_;
+    FrameStream stream_;
+    GraphSlamSession session_;
+    Interruption interruption_;
+    JobReport report_;
+    std::optional<double> last_stamp_s_;
+    std::size_t keyframes_ = 0;
+};
+
+void Job::track() {
+    const Stopwatch watch;
+    const double cpu_before = processCpuSeconds();
+    Progress progress("tracking", stream_.expectedFrames());
+    stream_.start([&](const RgbdImage& image) { return session_.prepare(image); });
+    while (!finished()) {
+        const auto frame = nextFrame();
+        if (!frame) break;
+        trackOne(*frame);
+        progress.expect(stream_.expectedFrames());
+        progress.update(frame->index + 1, progressNote());
+    }
+    report_.tracking_wall_s = watch.seconds();
+    report_.tracking_cpu_s = processCpuSeconds() - cpu_before;
+}
+
+bool Job::finished() const {
+    const auto most = static_cast<std::size_t>(job_.options.run.max_frames);
+    return interruption_.requested() || (most > 0 && report_.frames >= most);
+}
+
+std::optional<StreamedFrame> Job::nextFrame() {
+    try {
+        return stream_.next();
+    } catch (const Error& e) {
+        report_.damage = e.what();
+        return std::nullopt;
+    }
+}
+
+void Job::trackOne(const StreamedFrame& frame) {
+    const double stamp_s = frame.prepared.stamp_s;
+    if (last_stamp_s_ && stamp_s <= *last_stamp_s_) {
+        if (report_.out_of_order++ == 0) {
+            sayWarning("frame " + std::to_string(frame.index) + " at " + std::to_string(stamp_s) +
+                       " s is not later than the one before and is left out, as are all such");
+        }
+        return;
+    }
+    last_stamp_s_ = stamp_s;
+    ++report_.frames;
+    if (session_.step(frame.observation, frame.prepared).keyframe) ++keyframes_;
+}
+
+std::string Job::progressNote() const {
+    const int loops = session_.loopEdges();
+    return std::to_string(keyframes_) + " keyframes" +
+           (loops > 0 ? ", " + std::to_string(loops) + " loops" : "");
+}
+
+void Job::describe() {
+    report_.interrupted = interruption_.requested();
+    const VisualSlam& slam = session_.slam();
+    countFrames();
+    for (const KeyframeView& keyframe : slam.keyframes()) {
+        ++report_.keyframes;
+        report_.culled_keyframes += keyframe.culled;
+    }
+    report_.landmarks = slam.landmarks().size();
+    report_.loops = session_.loopEdges();
+    const Trajectory trajectory = located(slam.frames());
+    report_.path_m = pathLength(trajectory);
+    evaluate(trajectory);
+    collectStages();
+}
+
+void Job::countFrames() {
+    for (const TrackedFrame& frame : session_.slam().frames()) {
+        report_.tracked += frame.origin == FrameOrigin::Tracked;
+        report_.recovered += frame.origin == FrameOrigin::Recovered;
+        report_.lost += frame.origin == FrameOrigin::Lost;
+    }
+}
+
+void Job::evaluate(const Trajectory& estimate) {
+    Trajectory truth = stream_.truth();
+    if (truth.empty()) return;
+    for (StampedPose& pose : truth) pose.T_world_cam = pose.T_world_cam * session_.T_base_cam();
+    try {
+        const AteResult ate = evaluateAte(estimate, truth);
+        report_.ate_rmse_m = ate.translation_m.rmse;
+        report_.ate_pairs = ate.pairs.size();
+    } catch (const Error& e) {
+        sayWarning(std::string("no ATE: ") + e.what());
+    }
+}
+
+void Job::collectStages() {
+    report_.stages = stream_.times().all();
+    const auto of_session = session_.stageTimes();
+    report_.stages.insert(report_.stages.end(), of_session.begin(), of_session.end());
+}
+
+MapInputs Job::mapInputs() const {
+    MapInputs inputs;
+    inputs.rawlog = job_.rawlog;
+    inputs.trajectory = located(session_.slam().frames());
+    for (const KeyframeView& keyframe : session_.slam().keyframes()) {
+        inputs.keyframes.push_back({keyframe.stamp_s, keyframe.T_world_cam});
+    }
+    const PoseGraph graph = session_.slam().poseGraph();
+    for (const PoseEdge& edge : graph.edges) {
+        if (edge.kind != EdgeKind::Loop) continue;
+        inputs.loops.push_back({edge.from, edge.to, edge.inliers});
+    }
+    if (!inputs.loops.empty()) {
+        inputs.keyframes_before_loops = withoutLoops(inputs.keyframes, graph);
+    }
+    return inputs;
+}
+
+void Job::writePoses(const MapInputs& upright, const SE3& T_up_world) const {
+    writeTextAtomically(path("trajectory.txt"), toTumText(upright.trajectory));
+    writeTextAtomically(path("keyframes.txt"), toTumText(upright.keyframes));
+    session_.writeGraph(path("graph.graph"), T_up_world);
+}
+
+void Job::write() {
+    writeTextAtomically(path("config.ini"), configText(job_.options));
+    writeTextAtomically(path("frames.csv"), framesCsv(session_.slam().frames()));
+    const MapInputs inputs = mapInputs();
+    if (inputs.keyframes.empty()) {
+        throw Error("none of the " + std::to_string(report_.frames) + " frames of '" + job_.rawlog +
+                        "' could start a map",
+                    "check depth scale and calibration, and that the camera sees texture");
+    }
+    const SE3 T_up_world = uprightFromWorld(inputs, job_.options.maps);
+    const MapInputs upright = transformed(T_up_world, inputs);
+    writePoses(upright, T_up_world);
+    const Stopwatch watch;
+    if (job_.options.run.dense_maps) writeMaps(upright, job_.options.maps, job_.out_folder);
+    report_.maps_wall_s = watch.seconds();
+    report_.peak_memory_mb = peakMemoryMb();
+    writeTextAtomically(path("summary.json"), summaryJson(job_, report_));
+}
+
+}  // namespace
+
+JobReport runSlamJob(const SlamJob& job) {
+    makeWritableFolder(job.out_folder);
+    return Job(job).run();
+}
+
+}  // namespace rgbd_graphslam
