@@ -1,6 +1,7 @@
-/** Numbers as text that reads back to the same bits. */
+/** Numbers as text that reads back to the same bits, and stamps to the microsecond. */
 #pragma once
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <string>
 
@@ -19,6 +20,10 @@ inline std::string stampText(double stamp_s) {
     char text[64];
     std::snprintf(text, sizeof(text), "%.6f", stamp_s);
     return text;
+}
+
+inline long long microseconds(double stamp_s) {
+    return std::llround(stamp_s * 1e6);
 }
 
 }  // namespace rgbd_graphslam

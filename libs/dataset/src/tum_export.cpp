@@ -159,7 +159,7 @@ class Export {
     }
 
     double depthStampOf(double color_stamp_s) const {
-        const auto found = depth_stamps_.find(std::llround(color_stamp_s * 1e6));
+        const auto found = depth_stamps_.find(microseconds(color_stamp_s));
         return found == depth_stamps_.end() ? color_stamp_s : found->second * 1e-6;
     }
 

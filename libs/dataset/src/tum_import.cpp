@@ -1,18 +1,12 @@
 #include "rgbd_graphslam/dataset/tum_import.h"
 
 #include <mrpt/obs/CObservationComment.h>
-#include <mrpt/obs/CObservationIMU.h>
-#include <mrpt/obs/CObservationOdometry.h>
-#include <mrpt/obs/CObservationRobotPose.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <cmath>
 #include <filesystem>
-#include <map>
-#include <set>
 
+#include "frame_pairs.h"
 #include "number_text.h"
 #include "ordered_jobs.h"
 #include "rgbd_graphslam/core/console.h"
@@ -22,158 +16,11 @@
 #include "rgbd_graphslam/dataset/image_file.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
-#include "rgbd_graphslam/geometry/associate.h"
+#include "sensor_entries.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;
 namespace {
-
-struct FramePair {
-    ListedImage color, depth;
-};
-
-long long microseconds(double stamp_s) {
-    return std::llround(stamp_s * 1e6);
-}
-
-/** Images whose file exists, in order of time, each stamp once. */
-std::vector<ListedImage> usableImages(const TumSequence& sequence,
-                                      const std::vector<ListedImage>& images, bool strict,
-                                      ImageTally& tally) {
-    tally.listed = images.size();
-    tally.backwards = stampOrder(images).backwards;
-    std::set<long long> seen;
-    std::vector<ListedImage> usable;
-    for (const auto& image : images) {
-        const fs::path file = fs::path(sequence.folder) / image.file;
-        if (!fs::is_regular_file(file)) {
-            if (strict) {
-                throw Error("the listed image '" + file.string() + "' is missing",
-                            "fetch the sequence again, or leave out --strict to go on without it");
-            }
-            ++tally.missing;
-        } else if (!seen.insert(microseconds(image.stamp_s)).second) {
-            ++tally.repeated;
-        } else {
-            usable.push_back(image);
-        }
-    }
-    std::stable_sort(usable.begin(), usable.end(),
-                     [](const auto& a, const auto& b) { return a.stamp_s < b.stamp_s; });
-    return usable;
-}
-
-std::vector<double> stampsOf(const std::vector<ListedImage>& images) {
-    std::vector<double> stamps;
-    for (const auto& image : images) stamps.push_back(image.stamp_s);
-    return stamps;
-}
-
-/** Tells images that had nobody near from those whose partners went to others.
- *  \param own, other ascending stamps */
-void tallyLeftOver(const std::vector<double>& own, const std::vector<bool>& paired,
-                   const std::vector<double>& other, double max_difference, ImageTally& tally) {
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        if (paired[i]) continue;
-        const auto next = std::lower_bound(other.begin(), other.end(), own[i]);
-        const bool near = (next != other.end() && *next - own[i] < max_difference) ||
-                          (next != other.begin() && own[i] - *(next - 1) < max_difference);
-        ++(near ? tally.partner_taken : tally.no_partner);
-    }
-}
-
-std::vector<FramePair> pairUp(const TumSequence& sequence, const ImportOptions& options,
-                              ImportReport& report) {
-    const auto color = usableImages(sequence, sequence.color, options.strict, report.color);
-    const auto depth = usableImages(sequence, sequence.depth, options.strict, report.depth);
-    const auto color_stamps = stampsOf(color), depth_stamps = stampsOf(depth);
-    std::vector<bool> color_paired(color.size()), depth_paired(depth.size());
-    std::vector<FramePair> pairs;
-    for (const auto& [i, j] : associate(color_stamps, depth_stamps, options.max_difference_s)) {
-        pairs.push_back({color[i], depth[j]});
-        color_paired[i] = depth_paired[j] = true;
-    }
-    tallyLeftOver(color_stamps, color_paired, depth_stamps, options.max_difference_s, report.color);
-    tallyLeftOver(depth_stamps, depth_paired, color_stamps, options.max_difference_s, report.depth);
-    if (pairs.empty()) {
-        throw Error("no colour and depth image of '" + sequence.folder + "' are within " +
-                        shortest(options.max_difference_s) + " s of each other" +
-                        (color.empty() || depth.empty() ? ", the listed files are missing" : ""),
-                    "check rgb.txt and depth.txt, or raise --max-difference");
-    }
-    return pairs;
-}
-
-/** Entries other than frames, one stamp after the other. */
-using SensorEntries = std::vector<mrpt::obs::CObservation::Ptr>;
-
-void addTruth(const TumSequence& sequence, const CameraSetup& setup, SensorEntries& entries) {
-    const SE3 T_cam_base = T_optical_from_mrpt * setup.T_base_sensor.inverse();
-    for (const auto& [stamp_s, T_world_cam] : sequence.truth) {
-        auto pose = mrpt::obs::CObservationRobotPose::Create();
-        pose->sensorLabel = ground_truth_label;
-        pose->timestamp = toMrptTime(stamp_s);
-        pose->pose.mean = toCPose3D(T_world_cam * T_cam_base);
-        entries.push_back(pose);
-    }
-}
-
-using ImuAxes = std::array<mrpt::obs::TIMUDataIndex, 3>;
-
-void set(mrpt::obs::CObservationIMU& imu, const ImuAxes& axes, const Eigen::Vector3d& value) {
-    for (int i = 0; i < 3; ++i) imu.set(axes[i], value[i]);
-}
-
-mrpt::obs::CObservationIMU::Ptr imuReading(const CameraSetup& setup, double stamp_s) {
-    auto imu = mrpt::obs::CObservationIMU::Create();
-    imu->sensorLabel = imu_label;
-    imu->timestamp = toMrptTime(stamp_s);
-    imu->sensorPose = toCPose3D(setup.T_base_sensor * setup.T_sensor_imu);
-    return imu;
-}
-
-/** Readings of accelerometer and gyroscope at the same stamp share an observation. */
-void addImu(const TumSequence& sequence, const CameraSetup& setup, SensorEntries& entries) {
-    using namespace mrpt::obs;
-    const ImuAxes linear = {IMU_X_ACC, IMU_Y_ACC, IMU_Z_ACC}, angular = {IMU_WX, IMU_WY, IMU_WZ};
-    std::map<long long, CObservationIMU::Ptr> without_angular;
-    for (const auto& sample : sequence.acceleration) {
-        const auto imu = imuReading(setup, sample.stamp_s);
-        set(*imu, linear, sample.value);
-        without_angular[microseconds(sample.stamp_s)] = imu;
-        entries.push_back(imu);
-    }
-    for (const auto& sample : sequence.angular_velocity) {
-        auto partner = without_angular.extract(microseconds(sample.stamp_s));
-        const auto imu = partner ? partner.mapped() : imuReading(setup, sample.stamp_s);
-        set(*imu, angular, sample.value);
-        if (!partner) entries.push_back(imu);
-    }
-}
-
-void addOdometry(const TumSequence& sequence, SensorEntries& entries) {
-    for (const auto& sample : sequence.odometry) {
-        auto odometry = mrpt::obs::CObservationOdometry::Create();
-        odometry->sensorLabel = odometry_label;
-        odometry->timestamp = toMrptTime(sample.stamp_s);
-        odometry->odometry = {sample.value.x(), sample.value.y(), sample.value.z()};
-        entries.push_back(odometry);
-    }
-}
-
-SensorEntries sensorEntries(const TumSequence& sequence, const CameraSetup& setup,
-                            ImportReport& report) {
-    SensorEntries entries;
-    addTruth(sequence, setup, entries);
-    report.truth = entries.size();
-    addImu(sequence, setup, entries);
-    report.imu = entries.size() - report.truth;
-    addOdometry(sequence, entries);
-    report.odometry = entries.size() - report.truth - report.imu;
-    std::stable_sort(entries.begin(), entries.end(),
-                     [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
-    return entries;
-}
 
 DepthStamps depthStampsOf(const std::vector<FramePair>& pairs) {
     DepthStamps stamps;

@@ -1,0 +1,18 @@
+/** Rawlog entries other than frames. */
+#pragma once
+#include <mrpt/obs/CObservation.h>
+
+#include <vector>
+
+#include "rgbd_graphslam/dataset/tum_import.h"
+
+namespace rgbd_graphslam {
+
+/** In order of time. */
+using SensorEntries = std::vector<mrpt::obs::CObservation::Ptr>;
+
+/** Ground truth, IMU and odometry of a sequence; counted in `report`. */
+SensorEntries sensorEntries(const TumSequence& sequence, const CameraSetup& setup,
+                            ImportReport& report);
+
+}  // namespace rgbd_graphslam
