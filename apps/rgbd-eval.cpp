@@ -1,6 +1,7 @@
 /** rgbd-eval: how good trajectories and maps are. */
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
 
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/evaluation/commands.h"
@@ -12,14 +13,38 @@ void print(const std::string& text) {
     std::fputs(text.c_str(), stdout);
 }
 
+/** An option whose value is one of a few names; the first is the default. */
+template <class Value>
+void declareChoice(CLI::App& command, const std::string& option, Value& value,
+                   const std::vector<std::pair<std::string, Value>>& choices,
+                   const std::string& help) {
+    std::vector<std::string> names;
+    for (const auto& choice : choices) names.push_back(choice.first);
+    const std::map<std::string, Value> value_of(choices.begin(), choices.end());
+    command
+        .add_option_function<std::string>(
+            option, [&value, value_of](const std::string& name) { value = value_of.at(name); },
+            help)
+        ->check(CLI::IsMember(names))
+        ->type_name("NAME")
+        ->default_str(names.front());
+}
+
+/** CLI11's own check names the largest double there is. */
+CLI::Validator positive() {
+    const auto problem = [](const std::string& text) -> std::string {
+        return std::atof(text.c_str()) > 0 ? "" : "'" + text + "' is not above 0";
+    };
+    return CLI::Validator(problem, "");
+}
+
 void declareFormat(CLI::App& command, ReportFormat& format) {
-    const std::map<std::string, ReportFormat> formats{{"text", ReportFormat::Text},
-                                                      {"csv", ReportFormat::Csv},
-                                                      {"json", ReportFormat::Json},
-                                                      {"latex", ReportFormat::Latex}};
-    command.add_option("--format", format, "Of the table: text, csv, json or latex [text]")
-        ->transform(CLI::CheckedTransformer(formats).description(""))
-        ->type_name("NAME");
+    declareChoice(command, "--format", format,
+                  {{"text", ReportFormat::Text},
+                   {"csv", ReportFormat::Csv},
+                   {"json", ReportFormat::Json},
+                   {"latex", ReportFormat::Latex}},
+                  "Of the table");
 }
 
 void declareTrajectories(CLI::App& command, TrajectoryRequest& request) {
@@ -43,22 +68,20 @@ void addAte(CLI::App& app, AteRequest& request) {
     command
         .add_option("--max-difference", options.max_difference_s,
                     "Stamps further apart are no pair, s")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str();
     command.add_option("--offset", options.offset_s, "Added to the estimate's stamps, s")
         ->capture_default_str();
     command.add_option("--scale", options.scale, "Factor on the estimate's positions")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str();
     command.add_flag("--fit-scale", options.fit_scale, "Align with the scale that fits best")
         ->excludes("--scale");
     command.add_option("--plot", request.plot,
                        "Picture of truth, estimate and difference, .png or .svg");
-    const std::map<std::string, PlotPlane> planes{
-        {"xy", PlotPlane::XY}, {"xz", PlotPlane::XZ}, {"yz", PlotPlane::YZ}};
-    command.add_option("--plane", request.plane, "Of --plot: xy, xz or yz [xy]")
-        ->transform(CLI::CheckedTransformer(planes).description(""))
-        ->type_name("NAME");
+    declareChoice(command, "--plane", request.plane,
+                  {{"xy", PlotPlane::XY}, {"xz", PlotPlane::XZ}, {"yz", PlotPlane::YZ}},
+                  "Of the truth's frame, for --plot");
     command.final_callback([&request] { print(runAte(request)); });
 }
 
@@ -69,16 +92,15 @@ void addRpe(CLI::App& app, RpeRequest& request) {
     command.add_flag("--fixed-delta", options.fixed_delta,
                      "Pairs of poses --delta apart; without it all pairs");
     command.add_option("--delta", options.delta, "Distance of the two poses of a pair")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str();
-    const std::map<std::string, DeltaUnit> units{{"s", DeltaUnit::Seconds},
-                                                 {"m", DeltaUnit::Metres},
-                                                 {"rad", DeltaUnit::Radians},
-                                                 {"deg", DeltaUnit::Degrees},
-                                                 {"f", DeltaUnit::Frames}};
-    command.add_option("--delta-unit", options.unit, "s, m, rad, deg or f, for frames [s]")
-        ->transform(CLI::CheckedTransformer(units).description(""))
-        ->type_name("NAME");
+    declareChoice(command, "--delta-unit", options.unit,
+                  {{"s", DeltaUnit::Seconds},
+                   {"m", DeltaUnit::Metres},
+                   {"rad", DeltaUnit::Radians},
+                   {"deg", DeltaUnit::Degrees},
+                   {"f", DeltaUnit::Frames}},
+                  "Of --delta; f: frames");
     command
         .add_option("--max-pairs", options.max_pairs, "Draw so many when there are more; 0: all")
         ->capture_default_str();
@@ -86,7 +108,7 @@ void addRpe(CLI::App& app, RpeRequest& request) {
     command.add_option("--offset", options.offset_s, "Added to the estimate's stamps, s")
         ->capture_default_str();
     command.add_option("--scale", options.scale, "Factor on the estimate's positions")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str();
     command.final_callback([&request] { print(runRpe(request)); });
 }
@@ -99,7 +121,7 @@ void addAssociate(CLI::App& app, AssociateRequest& request) {
     command
         .add_option("--max-difference", options.max_difference_s,
                     "Stamps further apart are no pair, s")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str();
     command.add_option("--offset", options.offset_s, "Added to the second list's stamps, s")
         ->capture_default_str();
@@ -136,20 +158,20 @@ void addPointCloud(CLI::App& app, PointCloudRequest& request, std::vector<std::s
     command
         .add_option("--depth-units", request.depth_units,
                     "Depth units a metre; default: the camera's")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     command
         .add_option("--max-difference", request.max_difference_s,
                     "Stamps further apart are no pair, s")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str();
     command.add_option("--nth", request.every_image, "Take every n-th image")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str();
     auto& options = request.options;
     command
         .add_option("--downsample", options.every_pixel,
                     "Take every n-th pixel of a row and column")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str();
     command
         .add_option("--max-depth", options.max_depth_m, "Leave out what is farther, m; 0: nothing")
@@ -179,7 +201,7 @@ void addMap(CLI::App& app, MapRequest& request) {
     command
         .add_option("--complete-within", options.completeness_distance_m,
                     "A place of the surface with a point of the map nearer is covered, m")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str();
     declareFormat(command, request.format);
     command.final_callback([&request] { print(runMap(request)); });

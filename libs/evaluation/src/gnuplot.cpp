@@ -1,5 +1,6 @@
 #include "rgbd_graphslam/evaluation/gnuplot.h"
 
+#include <fcntl.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -8,6 +9,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 
 #include "rgbd_graphslam/core/atomic_file.h"
@@ -51,7 +53,7 @@ pid_t start(const char* program, std::FILE* input, std::FILE* errors) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, fileno(input), STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, fileno(errors), STDOUT_FILENO);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, fileno(errors), STDERR_FILENO);
     char* const arguments[] = {const_cast<char*>(program), nullptr};
     pid_t child = 0;
@@ -90,7 +92,7 @@ std::string terminalFor(const std::string& path, int width, int height) {
     }
     if (extension == ".svg") {
         return "svg noenhanced" + size(width, height) +
-               " dynamic font 'Helvetica,Arial,sans-serif,14'";
+               " dynamic background '#ffffff' font 'Helvetica,Arial,sans-serif,14'";
     }
     throw Error("'" + path + "' is no picture gnuplot is asked for here",
                 "name a file ending in .png or .svg");
@@ -122,9 +124,10 @@ std::string Gnuplot::data(const Rows& rows) {
 
 void Gnuplot::draw() const {
     writeAtomically(path_, [&](const std::string& temporary) {
+        if (!std::ofstream(temporary)) return false;  // gnuplot would not fail
         runGnuplot("set terminal " + terminal_ + "\nset output " + quoted(temporary) + "\n" +
                    blocks_ + commands_ + "unset output\n");
-        return std::filesystem::exists(temporary);
+        return std::filesystem::file_size(temporary) > 0;
     });
 }
 
