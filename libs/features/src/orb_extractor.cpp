@@ -2,17 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <opencv2/features2d.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "fast_detector.h"
 #include "orb_pattern.h"
+#include "patch_orientation.h"
 
 namespace rgbd_graphslam {
 namespace {
 
 constexpr int border_px = orb_patch_radius + 2;
-constexpr int fast_radius = 3;
 constexpr float pi = 3.14159265f;
 
 /** A pyramid level and its smoothed copy. All levels have the row step of the first, so that one
@@ -21,29 +20,15 @@ struct Level {
     cv::Mat sharp, smooth;
 };
 
-struct LevelCorner {
-    int x, y;
-    int response;
-};
-
 /** Buffers that a thread keeps from image to image. */
 struct Scratch {
     cv::Mat sharp_buffer, smooth_buffer;
     std::vector<Level> levels;
     std::size_t offsets_step = 0;
     std::vector<int> offsets;
-    std::vector<cv::KeyPoint> fast_corners;
-    std::vector<std::vector<LevelCorner>> cells;
+    std::vector<FastCorner> corners;
+    std::vector<std::vector<FastCorner>> cells;
 };
-
-/** Half width of the moment disc in each row. */
-std::array<int, orb_patch_radius + 1> discHalfWidths() {
-    std::array<int, orb_patch_radius + 1> half{};
-    for (int y = 0; y <= orb_patch_radius; ++y) {
-        half[y] = static_cast<int>(std::sqrt(orb_patch_radius * orb_patch_radius - y * y + 0.5));
-    }
-    return half;
-}
 
 void buildPyramid(const cv::Mat& grey, const std::vector<float>& scale, Scratch& scratch) {
     const int needed = 2 * border_px + 8;
@@ -83,52 +68,40 @@ void updateOffsets(Scratch& scratch) {
     }
 }
 
-void detectFast(const cv::Mat& image, const cv::Rect& area, int threshold, Scratch& scratch,
-                std::vector<LevelCorner>& corners) {
-    const cv::Rect with_circle(area.x - fast_radius, area.y - fast_radius,
-                               area.width + 2 * fast_radius, area.height + 2 * fast_radius);
-    scratch.fast_corners.clear();
-    cv::FAST(image(with_circle), scratch.fast_corners, threshold, true);
-    for (const cv::KeyPoint& k : scratch.fast_corners) {
-        corners.push_back({static_cast<int>(k.pt.x) + with_circle.x,
-                           static_cast<int>(k.pt.y) + with_circle.y, static_cast<int>(k.response)});
-    }
-}
-
 /** Strongest first; the place decides between equals. */
-bool stronger(const LevelCorner& a, const LevelCorner& b) {
-    if (a.response != b.response) return a.response > b.response;
+bool stronger(const FastCorner& a, const FastCorner& b) {
+    if (a.score != b.score) return a.score > b.score;
     return a.y != b.y ? a.y < b.y : a.x < b.x;
 }
 
-/** Corners of a level sorted into cells; cells where the first threshold finds nothing are searched
- *  again with the lower one. \return number of cells in use */
+/** Corners of a level sorted into cells; faint ones count only in cells without any other.
+ *  \return number of cells in use */
 std::size_t detectInCells(const cv::Mat& image, const FeatureOptions& options, Scratch& scratch) {
     const cv::Rect inner(border_px, border_px, image.cols - 2 * border_px,
                          image.rows - 2 * border_px);
     const int columns = std::max(1, inner.width / options.cell_px);
     const int rows = std::max(1, inner.height / options.cell_px);
+    const auto cellOf = [&](const FastCorner& c) -> std::vector<FastCorner>& {
+        const int column = (c.x - inner.x) * columns / inner.width;
+        const int row = (c.y - inner.y) * rows / inner.height;
+        return scratch.cells[row * columns + column];
+    };
     const std::size_t used = static_cast<std::size_t>(columns) * rows;
     if (scratch.cells.size() < used) scratch.cells.resize(used);
     for (std::size_t c = 0; c < used; ++c) scratch.cells[c].clear();
-    std::vector<LevelCorner> corners;
-    detectFast(image, inner, options.fast_threshold, scratch, corners);
-    for (const LevelCorner& corner : corners) {
-        const int column = (corner.x - inner.x) * columns / inner.width;
-        const int row = (corner.y - inner.y) * rows / inner.height;
-        scratch.cells[row * columns + column].push_back(corner);
+    scratch.corners.clear();
+    const int least = std::min(options.fast_threshold_min, options.fast_threshold);
+    detectFast(image, inner, least, scratch.corners);
+    for (const FastCorner& corner : scratch.corners) {
+        if (corner.score >= options.fast_threshold) cellOf(corner).push_back(corner);
+    }
+    std::vector<char> has_strong(used);
+    for (std::size_t c = 0; c < used; ++c) has_strong[c] = !scratch.cells[c].empty();
+    for (const FastCorner& corner : scratch.corners) {
+        auto& cell = cellOf(corner);
+        if (!has_strong[&cell - scratch.cells.data()]) cell.push_back(corner);
     }
     for (std::size_t c = 0; c < used; ++c) {
-        if (scratch.cells[c].empty()) {
-            const int column = static_cast<int>(c) % columns, row = static_cast<int>(c) / columns;
-            const int x0 = (column * inner.width + columns - 1) / columns;
-            const int x1 = ((column + 1) * inner.width + columns - 1) / columns;
-            const int y0 = (row * inner.height + rows - 1) / rows;
-            const int y1 = ((row + 1) * inner.height + rows - 1) / rows;
-            detectFast(image, {inner.x + x0, inner.y + y0, x1 - x0, y1 - y0},
-                       std::min(options.fast_threshold_min, options.fast_threshold), scratch,
-                       scratch.cells[c]);
-        }
         std::sort(scratch.cells[c].begin(), scratch.cells[c].end(), stronger);
     }
     return used;
@@ -136,10 +109,10 @@ std::size_t detectInCells(const cv::Mat& image, const FeatureOptions& options, S
 
 /** Takes the best corner of every cell, then the second best, and so on: even spread first,
  * strength within what is left over. */
-std::vector<LevelCorner> selectEvenly(const std::vector<std::vector<LevelCorner>>& cells,
-                                      std::size_t used, std::size_t quota) {
-    std::vector<LevelCorner> selected;
-    std::vector<LevelCorner> round;
+std::vector<FastCorner> selectEvenly(const std::vector<std::vector<FastCorner>>& cells,
+                                     std::size_t used, std::size_t quota) {
+    std::vector<FastCorner> selected;
+    std::vector<FastCorner> round;
     for (std::size_t rank = 0; selected.size() < quota; ++rank) {
         round.clear();
         for (std::size_t c = 0; c < used; ++c) {
@@ -153,26 +126,6 @@ std::vector<LevelCorner> selectEvenly(const std::vector<std::vector<LevelCorner>
         selected.insert(selected.end(), round.begin(), round.end());
     }
     return selected;
-}
-
-/** Direction from the corner to the centroid of grey values (Rosin, CVIU 1999). */
-float orientation(const cv::Mat& image, int x, int y) {
-    static const auto half_width = discHalfWidths();
-    const int step = static_cast<int>(image.step);
-    const std::uint8_t* centre = image.ptr<std::uint8_t>(y) + x;
-    int moment_x = 0, moment_y = 0;
-    for (int i = -orb_patch_radius; i <= orb_patch_radius; ++i) moment_x += i * centre[i];
-    for (int j = 1; j <= orb_patch_radius; ++j) {
-        const std::uint8_t* below = centre + j * step;
-        const std::uint8_t* above = centre - j * step;
-        int difference = 0;
-        for (int i = -half_width[j]; i <= half_width[j]; ++i) {
-            moment_x += i * (below[i] + above[i]);
-            difference += below[i] - above[i];
-        }
-        moment_y += j * difference;
-    }
-    return std::atan2(static_cast<float>(moment_y), static_cast<float>(moment_x));
 }
 
 /** Where the structure tensor of the 5x5 neighbourhood places the corner (Foerstner and Guelch,
@@ -243,8 +196,8 @@ OrbFeatures OrbExtractor::extract(const cv::Mat& grey) const {
         // The true ratio: sizes are whole pixels, so it differs from the nominal one.
         const float scale_x = static_cast<float>(grey.cols) / level.sharp.cols;
         const float scale_y = static_cast<float>(grey.rows) / level.sharp.rows;
-        for (const LevelCorner& corner : selectEvenly(scratch.cells, used, quota_[l])) {
-            const float angle = orientation(level.sharp, corner.x, corner.y);
+        for (const FastCorner& corner : selectEvenly(scratch.cells, used, quota_[l])) {
+            const float angle = patchOrientation(level.sharp, corner.x, corner.y);
             const cv::Point2f offset = subPixelOffset(level.sharp, corner.x, corner.y);
             // Pixel centres are whole numbers on every level, so scaling is about the image corner.
             features.corners.push_back({(corner.x + offset.x + 0.5f) * scale_x - 0.5f,
