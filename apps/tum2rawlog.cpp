@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/dataset/sequence_archive.h"
 #include "rgbd_graphslam/dataset/tum_import.h"
 
 namespace rgbd_graphslam {
@@ -12,7 +13,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-    std::string folder, rawlog, camera;
+    std::string source, rawlog, camera;
     double depth_units = 0, depth_scale = 0;
     bool compact = false, quiet = false, verbose = false;
     ImportOptions import;
@@ -20,7 +21,8 @@ struct Arguments {
 
 void declare(CLI::App& app, Arguments& args) {
     app.set_version_flag("--version", RGBD_VERSION);
-    app.add_option("DIR", args.folder, "Folder with rgb.txt and depth.txt")->required();
+    app.add_option("DIR", args.source, "Folder with rgb.txt and depth.txt, or its .tgz archive")
+        ->required();
     app.add_option("OUT.rawlog", args.rawlog, "Rawlog to write")->required();
     app.add_option(
         "--camera", args.camera,
@@ -48,17 +50,17 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_flag("-v,--verbose", args.verbose, "Say more");
 }
 
-CameraSetup chooseCamera(const Arguments& args) {
+CameraSetup chooseCamera(const Arguments& args, const std::string& folder) {
     if (!args.camera.empty()) {
         const auto known = cameraByName(args.camera);
         return known ? *known : readCameraFile(args.camera);
     }
-    const fs::path file = fs::path(args.folder) / "camera.ini";
+    const fs::path file = fs::path(folder) / "camera.ini";
     if (fs::exists(file)) {
         sayInfo("camera: " + file.string());
         return readCameraFile(file);
     }
-    if (const auto guess = cameraByFolderName(fs::canonical(args.folder).filename())) {
+    if (const auto guess = cameraByFolderName(fs::canonical(folder).filename())) {
         sayInfo("camera: " + guess->name + ", by the folder's name");
         return *guess;
     }
@@ -66,14 +68,22 @@ CameraSetup chooseCamera(const Arguments& args) {
     return *cameraByName("ros");
 }
 
-int run(const Arguments& args) {
-    const TumSequence sequence = readTumSequence(args.folder);
-    CameraSetup setup = chooseCamera(args);
+int importFolder(const Arguments& args, const std::string& folder) {
+    const TumSequence sequence = readTumSequence(folder);
+    CameraSetup setup = chooseCamera(args, folder);
     if (args.depth_units > 0) setup.depth_units = args.depth_units;
     if (args.depth_scale > 0) setup.depth_scale = args.depth_scale;
     const ImportReport report = importTumSequence(sequence, setup, args.rawlog, args.import);
     std::fputs(toText(report).c_str(), stdout);
     return 0;
+}
+
+int run(const Arguments& args) {
+    if (!isSequenceArchive(args.source)) return importFolder(args, args.source);
+    const std::string beside = fs::absolute(args.rawlog).parent_path();
+    sayInfo("unpacking '" + args.source + "'");
+    const UnpackedArchive unpacked(args.source, beside);
+    return importFolder(args, unpacked.sequenceFolder());
 }
 
 }  // namespace

@@ -250,6 +250,60 @@ TEST_F(FaultImport, olderRawlogSurvivesAFailedImport) {
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "out_Images"), {}), 8);
 }
 
+class FaultArchive : public FaultImport {
+  protected:
+    void SetUp() override {
+        FaultImport::SetUp();
+        pack("");
+    }
+
+    void pack(const std::string& options) const {
+        ASSERT_EQ(
+            std::system(("tar -C '" + folder_ / "" + "' " + options + " -czf '" + archive() + "' s")
+                            .c_str()),
+            0);
+    }
+
+    std::string archive() const { return folder_ / "freiburg1.tgz"; }
+
+    ProgramResult importArchive() const {
+        return runProgram("tum2rawlog", "'" + archive() + "' '" + rawlog() + "' --quiet");
+    }
+};
+
+TEST_F(FaultArchive, goodArchiveGivesWhatItsFolderGives) {
+    const ProgramResult result = importArchive();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    const std::string from_archive = readText(rawlog());
+    ASSERT_EQ(import().exit_code, 0);
+    EXPECT_EQ(from_archive, readText(rawlog()));
+    for (const auto& entry : fs::directory_iterator(folder_ / "")) {
+        EXPECT_NE(entry.path().filename().string()[0], '.') << "the unpacked folder is left behind";
+    }
+}
+
+TEST_F(FaultArchive, cutArchive) {
+    cutFile(archive(), 0.6);
+    expectRefused(importArchive(), "cannot unpack");
+}
+
+TEST_F(FaultArchive, archiveWithoutSequence) {
+    fs::remove(folder_ / "s/rgb.txt");
+    pack("");
+    expectRefused(importArchive(), "no rgb.txt in the archive");
+}
+
+TEST_F(FaultArchive, foreignFile) {
+    folder_.write("freiburg1.tgz", "<html>404</html>");
+    expectRefused(importArchive(), "cannot unpack");
+}
+
+TEST_F(FaultArchive, archiveThatClimbsOut) {
+    pack("-P --transform 's,^s/rgb.txt,../climbed.txt,'");
+    expectRefused(importArchive(), "cannot unpack");
+    EXPECT_FALSE(fs::exists(folder_ / "climbed.txt"));
+}
+
 class FaultExport : public FaultImport {
   protected:
     void SetUp() override {

@@ -1,0 +1,95 @@
+#include "rgbd_graphslam/dataset/sequence_archive.h"
+
+#include <archive.h>
+#include <archive_entry.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <memory>
+
+#include "rgbd_graphslam/core/atomic_file.h"
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr std::size_t block_bytes = 1 << 18;
+constexpr int unpack_flags = ARCHIVE_EXTRACT_SECURE_NODOTDOT | ARCHIVE_EXTRACT_SECURE_SYMLINKS;
+
+using Archive = std::unique_ptr<archive, int (*)(archive*)>;
+
+[[noreturn]] void refuse(const std::string& path, archive* from) {
+    const char* reason = archive_error_string(from);
+    throw Error("cannot unpack '" + path + "'" + (reason ? std::string(": ") + reason : ""),
+                "check free space beside the output, or fetch the archive again");
+}
+
+Archive openArchive(const std::string& path) {
+    Archive in(archive_read_new(), archive_read_free);
+    archive_read_support_filter_all(in.get());
+    archive_read_support_format_all(in.get());
+    if (archive_read_open_filename(in.get(), path.c_str(), block_bytes) != ARCHIVE_OK) {
+        refuse(path, in.get());
+    }
+    return in;
+}
+
+/** Only files and folders: a sequence needs no links, and links can lead out of the folder. */
+bool isWanted(archive_entry* entry) {
+    return archive_entry_filetype(entry) == AE_IFREG && !archive_entry_hardlink(entry);
+}
+
+void unpack(const std::string& path, const fs::path& folder) {
+    const Archive in = openArchive(path);
+    archive_entry* entry = nullptr;
+    int status = ARCHIVE_OK;
+    while ((status = archive_read_next_header(in.get(), &entry)) == ARCHIVE_OK) {
+        if (!isWanted(entry)) continue;
+        const fs::path name = fs::path(archive_entry_pathname(entry)).relative_path();
+        archive_entry_set_pathname(entry, (folder / name).c_str());
+        if (archive_read_extract(in.get(), entry, unpack_flags) != ARCHIVE_OK) {
+            refuse(path, in.get());
+        }
+    }
+    if (status != ARCHIVE_EOF) refuse(path, in.get());
+}
+
+}  // namespace
+
+bool isSequenceArchive(const std::string& path) {
+    const std::string ending = fs::path(path).extension().string();
+    if (!fs::is_regular_file(path)) return false;
+    for (const char* known : {".tgz", ".tar", ".gz", ".bz2", ".xz", ".zip"}) {
+        if (ending == known) return true;
+    }
+    return false;
+}
+
+UnpackedArchive::UnpackedArchive(const std::string& archive, const std::string& scratch)
+    : archive_(archive),
+      folder_((fs::path(scratch) / (".tmp-" + std::to_string(getpid()) + "-unpacked")).string()) {
+    makeWritableFolder(folder_);
+    try {
+        unpack(archive, folder_);
+    } catch (...) {
+        std::error_code ignored;
+        fs::remove_all(folder_, ignored);
+        throw;
+    }
+}
+
+UnpackedArchive::~UnpackedArchive() {
+    std::error_code ignored;
+    fs::remove_all(folder_, ignored);
+}
+
+std::string UnpackedArchive::sequenceFolder() const {
+    for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+        if (entry.path().filename() == "rgb.txt") return entry.path().parent_path().string();
+    }
+    throw Error("there is no rgb.txt in the archive '" + archive_ + "'",
+                "give an archive of the TUM RGB-D benchmark");
+}
+
+}  // namespace rgbd_graphslam
