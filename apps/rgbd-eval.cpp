@@ -30,10 +30,16 @@ void declareChoice(CLI::App& command, const std::string& option, Value& value,
         ->default_str(names.front());
 }
 
-/** CLI11's own check names the largest double there is. */
+/** CLI11's own checks name the largest double there is, and let -3 pass for an unsigned number. */
 CLI::Validator positive() {
     const auto problem = [](const std::string& text) -> std::string {
         return std::atof(text.c_str()) > 0 ? "" : "'" + text + "' is not above 0";
+    };
+    return CLI::Validator(problem, "");
+}
+CLI::Validator notNegative() {
+    const auto problem = [](const std::string& text) -> std::string {
+        return std::atof(text.c_str()) >= 0 ? "" : "'" + text + "' is below 0";
     };
     return CLI::Validator(problem, "");
 }
@@ -103,8 +109,11 @@ void addRpe(CLI::App& app, RpeRequest& request) {
                   "Of --delta; f: frames");
     command
         .add_option("--max-pairs", options.max_pairs, "Draw so many when there are more; 0: all")
+        ->check(notNegative())
         ->capture_default_str();
-    command.add_option("--seed", options.seed, "Of the drawing")->capture_default_str();
+    command.add_option("--seed", options.seed, "Of the drawing")
+        ->check(notNegative())
+        ->capture_default_str();
     command.add_option("--offset", options.offset_s, "Added to the estimate's stamps, s")
         ->capture_default_str();
     command.add_option("--scale", options.scale, "Factor on the estimate's positions")
@@ -175,10 +184,10 @@ void addPointCloud(CLI::App& app, PointCloudRequest& request, std::vector<std::s
         ->capture_default_str();
     command
         .add_option("--max-depth", options.max_depth_m, "Leave out what is farther, m; 0: nothing")
-        ->check(CLI::NonNegativeNumber)
+        ->check(notNegative())
         ->capture_default_str();
     command.add_option("--voxel", options.voxel_m, "Keep one point a cube of this side, m; 0: all")
-        ->check(CLI::NonNegativeNumber)
+        ->check(notNegative())
         ->capture_default_str();
     command.final_callback([&] {
         takeFiles(files, request);

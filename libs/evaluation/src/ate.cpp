@@ -15,8 +15,8 @@ struct Matches {
 
 [[noreturn]] void refuse(const Trajectory& estimate, const Trajectory& truth, std::size_t matches,
                          double max_difference_s) {
-    throw Error(std::to_string(matches) + " poses match within " +
-                    std::to_string(max_difference_s) + " s: " + spansOf(estimate, truth),
+    throw Error(std::to_string(matches) + " poses match within " + secondsText(max_difference_s) +
+                    ": " + spansOf(estimate, truth),
                 "check that the files belong together, give --offset or a larger --max-difference");
 }
 

@@ -1,7 +1,9 @@
 #include "rgbd_graphslam/evaluation/map_accuracy.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <tuple>
 
 #include "point_tree.h"
 #include "rgbd_graphslam/core/error.h"
@@ -53,17 +55,25 @@ class Coverage {
         if (tree_.distanceTo(p) <= distance_m_) covered_ += area;
     }
 
-    /** Samples at the centres of n^2 congruent parts, whose edges are at most `spacing_m` long. */
-    void sampleTriangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                        const Eigen::Vector3d& c, double spacing_m) {
-        const double longest_m = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
-        const int n = std::max(1, static_cast<int>(std::ceil(longest_m / spacing_m)));
-        const double area = (b - a).cross(c - a).norm() / 2 / n / n;
-        const Eigen::Vector3d u = (b - a) / n, v = (c - a) / n;
-        for (int i = 0; i < n; ++i) {
-            for (int j = 0; i + j < n; ++j) {
-                sample(a + (i + 1 / 3.0) * u + (j + 1 / 3.0) * v, area);
-                if (i + j + 1 < n) sample(a + (i + 2 / 3.0) * u + (j + 2 / 3.0) * v, area);
+    /** Samples in rows along the longest side, at most `spacing_m` apart; each stands for its part
+     *  of the area, so that thin triangles weigh and cost no more than they should. */
+    void sampleTriangle(Eigen::Vector3d a, Eigen::Vector3d b, Eigen::Vector3d c, double spacing_m) {
+        for (int turn = 0; turn < 2; ++turn) {
+            if ((c - b).norm() > (b - a).norm() || (a - c).norm() > (b - a).norm()) {
+                std::tie(a, b, c) = std::make_tuple(b, c, a);
+            }
+        }
+        const double side_m = (b - a).norm(), area = (b - a).cross(c - a).norm() / 2;
+        if (area <= 0) return;
+        const int rows = static_cast<int>(std::ceil(2 * area / side_m / spacing_m));
+        for (int row = 0; row < rows; ++row) {
+            const double bottom = 1.0 * row / rows, top = (row + 1.0) / rows;
+            const double up = (bottom + top) / 2;
+            const double row_area = area * ((1 - bottom) * (1 - bottom) - (1 - top) * (1 - top));
+            const int count = static_cast<int>(std::ceil(side_m * (1 - up) / spacing_m));
+            const Eigen::Vector3d start = a + up * (c - a), along = (1 - up) * (b - a);
+            for (int k = 0; k < count; ++k) {
+                sample(start + (k + 0.5) / count * along, row_area / count);
             }
         }
     }
@@ -78,16 +88,38 @@ class Coverage {
     std::size_t samples_ = 0;
 };
 
+using Triangle = std::array<Eigen::Vector3d, 3>;
+
+std::vector<Triangle> trianglesOf(const PlyModel& surface) {
+    std::vector<Triangle> triangles;
+    triangles.reserve(surface.triangles.size());
+    for (const auto& corners : surface.triangles) {
+        Triangle triangle;
+        for (int k = 0; k < 3; ++k) triangle[k] = surface.vertices[corners[k]].cast<double>();
+        triangles.push_back(triangle);
+    }
+    return triangles;
+}
+
+/** A surface in millimetres would take days. */
+void checkArea(const std::vector<Triangle>& triangles, double spacing_m) {
+    constexpr double most_samples = 1e9;
+    double area = 0;
+    for (const auto& [a, b, c] : triangles) area += (b - a).cross(c - a).norm() / 2;
+    if (!(area / spacing_m / spacing_m < most_samples)) {
+        throw Error("the surface measures " + std::to_string(area) + " square metres",
+                    "give one in metres");
+    }
+}
+
 void sampleSurface(const PlyModel& surface, double spacing_m, Coverage& coverage) {
     if (surface.triangles.empty()) {
         for (const auto& vertex : surface.vertices) coverage.sample(vertex.cast<double>(), 1);
         return;
     }
-    for (const auto& [a, b, c] : surface.triangles) {
-        coverage.sampleTriangle(surface.vertices[a].cast<double>(),
-                                surface.vertices[b].cast<double>(),
-                                surface.vertices[c].cast<double>(), spacing_m);
-    }
+    const auto triangles = trianglesOf(surface);
+    checkArea(triangles, spacing_m);
+    for (const auto& [a, b, c] : triangles) coverage.sampleTriangle(a, b, c, spacing_m);
 }
 
 }  // namespace

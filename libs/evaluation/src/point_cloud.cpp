@@ -51,9 +51,9 @@ std::vector<PosedImageFiles> withPoses(const std::vector<double>& stamps_s,
         posed.push_back(std::move(images[i]));
     }
     if (posed.empty()) {
-        throw Error("no pose of the trajectory is within " + std::to_string(max_difference_s) +
-                        " s of an image",
-                    "check that lists and trajectory belong together");
+        throw Error(
+            "no pose of the trajectory is within " + secondsText(max_difference_s) + " of an image",
+            "check that lists and trajectory belong together");
     }
     return posed;
 }

@@ -9,6 +9,7 @@
 
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/geometry/associate.h"
+#include "stamps.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -71,7 +72,7 @@ std::string associationText(const std::vector<StampedLine>& first,
         associate(stampsOf(first), stampsOf(second), options.max_difference_s, options.offset_s);
     if (pairs.empty()) {
         throw Error("no stamps of the two lists are within " +
-                        std::to_string(options.max_difference_s) + " s of each other",
+                        secondsText(options.max_difference_s) + " of each other",
                     "give --offset or a larger --max-difference");
     }
     std::string text;

@@ -49,6 +49,12 @@ void checkScale(double scale) {
     }
 }
 
+std::string secondsText(double seconds) {
+    char text[32];
+    std::snprintf(text, sizeof(text), "%g s", seconds);
+    return text;
+}
+
 std::string spansOf(const Trajectory& estimate, const Trajectory& truth) {
     return "estimate " + spanOf(estimate) + ", truth " + spanOf(truth);
 }

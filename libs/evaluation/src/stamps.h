@@ -20,6 +20,9 @@ std::size_t nearestIndex(const std::vector<double>& ascending, double wanted);
 /** \throws Error unless a factor on positions is finite and positive */
 void checkScale(double scale);
 
+/** For messages: "0.02 s". */
+std::string secondsText(double seconds);
+
 /** For messages: "estimate 1.00 s to 5.00 s (120 poses), truth 7.00 s to 9.00 s (200 poses)". */
 std::string spansOf(const Trajectory& estimate, const Trajectory& truth);
 

@@ -108,6 +108,12 @@ TEST(MapAccuracy, findsTheNearestOfManyTriangles) {
     EXPECT_NEAR(errors.max, 0.25, 1e-6);
 }
 
+TEST(MapAccuracy, refusesASurfaceThatIsNotInMetres) {
+    PlyModel millimetres = square();
+    for (auto& vertex : millimetres.vertices) vertex *= 1e6f;
+    EXPECT_THROW(evaluateMap(gridAt(0, 1), millimetres), Error);
+}
+
 TEST(MapAccuracy, refusesAnEmptyMapAndDistancesThatAreNone) {
     EXPECT_THROW(evaluateMap({}, square()), Error);
     MapAccuracyOptions options;

@@ -21,8 +21,8 @@ struct MapAccuracy {
      *  given as points. */
     Statistics distance_m;
     double distance_95_m = 0;  // 95 % of the points are nearer
-    /** Share of the surface, by area (by number for a surface given as points), that has a point of
-     *  the map within the completeness distance. */
+    /** Share of the surface, seen or not, by area (by number for a surface given as points), that
+     * has a point of the map within the completeness distance. */
     double completeness = 0;
     std::size_t surface_samples = 0;
 };
@@ -30,7 +30,8 @@ struct MapAccuracy {
 /** Accuracy and completeness in the sense of Seitz et al., "A comparison and evaluation of
  *  multi-view stereo reconstruction algorithms", CVPR 2006.
  *  \param surface triangles, or points that sample it densely
- *  \throws Error for an option that is not positive or a map without points */
+ *  \throws Error for an option that is not positive a map without points, or a surface too large to
+ *          be one in metres */
 MapAccuracy evaluateMap(const PlyModel& map, const PlyModel& surface,
                         const MapAccuracyOptions& options = {});
 
