@@ -7,6 +7,7 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
+#include <cctype>
 #include <deque>
 #include <filesystem>
 
@@ -18,13 +19,17 @@ namespace fs = std::filesystem;
 using mrpt::obs::CObservation;
 namespace {
 
-/** MRPT's messages are reports of many lines; the line that says what happened is enough. */
+/** MRPT's messages are reports of many lines; the line that says what happened is enough. Bytes of
+ *  a damaged file may be quoted in it. */
 std::string firstMessage(const std::exception& e) {
     const std::string text = e.what(), mark = "Message:";
-    const auto start = text.rfind(mark);
-    if (start == std::string::npos) return text.substr(0, text.find('\n'));
-    const auto from = text.find_first_not_of(' ', start + mark.size());
-    return text.substr(from, text.find('\n', from) - from);
+    const auto marked = text.rfind(mark);
+    const auto from =
+        marked == std::string::npos ? 0 : text.find_first_not_of(' ', marked + mark.size());
+    std::string line = text.substr(from, text.find('\n', from) - from);
+    std::replace_if(
+        line.begin(), line.end(), [](unsigned char c) { return !std::isprint(c); }, '?');
+    return line;
 }
 
 }  // namespace
