@@ -11,7 +11,9 @@ namespace rgbd_graphslam {
 
 struct SensorOptions : Options {
     double keypoint_sigma_px = 0.8;
-    DepthNoise depth_noise;
+    /** Larger close by than the sensor's own noise: registration and colour and depth taken at
+     *  different moments displace depth too (doc/design-decisions.md). */
+    DepthNoise depth_noise{0.005, 0.0019, 0.4};
 
     const char* section() const override { return "SensorOptions"; }
     const char* about() const override { return "How exact the camera is"; }
