@@ -226,6 +226,7 @@ void LocalMapper::fillProblem(Job& job) const {
 void LocalMapper::apply(const Job& job) {
     const BundleProblem& problem = job.problem;
     for (int c = 0; c < problem.free_cameras; ++c) {
+        moveUnadjusted(job.keyframes[c], problem.T_cam_world[c], job.landmarks);
         map_.setPose(job.keyframes[c], problem.T_cam_world[c]);
     }
     for (std::size_t p = 0; p < job.landmarks.size(); ++p) {
@@ -239,6 +240,18 @@ void LocalMapper::apply(const Job& job) {
         if (map_.landmark(landmark).alive) {
             map_.removeObservation(landmark, job.observation_keyframe[o]);
         }
+    }
+}
+
+/** Landmarks that one keyframe alone has seen took no part in the adjustment; left behind, they would
+ *  pull the next frames back to where their keyframe was. */
+void LocalMapper::moveUnadjusted(int keyframe, const SE3& new_T_cam_world,
+                                 const std::vector<int>& adjusted) {
+    const SE3 motion = new_T_cam_world.inverse() * map_.keyframe(keyframe).T_cam_world;
+    for (const int id : map_.keyframe(keyframe).landmarks) {
+        if (id == no_landmark || !map_.landmark(id).alive) continue;
+        if (std::binary_search(adjusted.begin(), adjusted.end(), id)) continue;
+        map_.landmark(id).position = motion * map_.landmark(id).position;
     }
 }
 

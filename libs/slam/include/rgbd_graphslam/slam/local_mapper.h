@@ -41,6 +41,7 @@ class LocalMapper {
     void joinWithNeighbours(int keyframe);
     void join(int landmark, int keyframe, int keypoint);
     void cullLandmarks(int keyframe);
+    void moveUnadjusted(int keyframe, const SE3& new_T_cam_world, const std::vector<int>& adjusted);
     void cullKeyframes(int keyframe);
     double redundancy(const Keyframe& keyframe) const;
     std::unique_ptr<Job> makeJob(int keyframe) const;
