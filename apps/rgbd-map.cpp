@@ -63,8 +63,8 @@ int main(int argc, char** argv) {
     app.add_option("-o,--output", arguments.destination, "Folder for the maps (default: OUT)");
     app.add_flag("--upright", arguments.upright,
                  "Turn the poses upright first: for trajectories that are not of rgbd-slam");
-    app.add_flag("--quiet", arguments.quiet, "Warnings and errors only");
-    app.add_flag("--verbose", arguments.verbose, "Say more");
+    app.add_flag("-q,--quiet", arguments.quiet, "Warnings and errors only");
+    app.add_flag("-v,--verbose", arguments.verbose, "Say more");
     app.set_version_flag("--version", RGBD_VERSION);
     CLI11_PARSE(app, argc, argv);
     return runMain("rgbd-map", [&] {

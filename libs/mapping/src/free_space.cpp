@@ -78,19 +78,18 @@ class Carver {
         const Eigen::Vector3f low = c - cube.size * reach_, high = c + cube.size * reach_;
         if (high.z() < nearest_plane_m || low.z() > max_range_) return Sight::Unseen;
         if (low.z() < nearest_plane_m) return Sight::Mixed;
-        PixelRect rect = image(low, high);
-        const bool cut = clip(rect);
-        if (rect.u0 > rect.u1 || rect.v0 > rect.v1) return Sight::Unseen;
-        return cut && cube.size == 1 ? Sight::Unseen
-                                     : compare(rect, cut, cube.size, low.z(), high.z());
+        return compare(image(low, high), cube.size, low.z(), high.z());
     }
 
-    Sight compare(const PixelRect& rect, bool cut, int size, float near, float far) const {
+    Sight compare(const PixelRect& whole, int size, float near, float far) const {
+        const PixelRect rect{std::max(whole.u0, 0), std::max(whole.v0, 0),
+                             std::min(whole.u1, camera_.width - 1),
+                             std::min(whole.v1, camera_.height - 1)};
+        if (rect.u0 > rect.u1 || rect.v0 > rect.v1) return Sight::Unseen;
         const DepthPyramid::Range seen = sight_.range(rect);
         if (seen.farthest <= near) return Sight::Unseen;
-        if (cut || seen.nearest <= far || far > max_range_) return Sight::Mixed;
-        const int needed =
-            size == 1 ? static_cast<int>(enough_readings * rect.area()) : rect.area();
+        if (seen.nearest <= far || far > max_range_) return Sight::Mixed;
+        const double needed = size == 1 ? enough_readings * whole.area() : whole.area();
         return sight_.readings(rect) >= needed ? Sight::Free : Sight::Mixed;
     }
 
@@ -103,15 +102,6 @@ class Carver {
                 pixel(std::floor(camera_.fy * least(low.y()) + camera_.cy)),
                 pixel(std::ceil(camera_.fx * most(high.x()) + camera_.cx)),
                 pixel(std::ceil(camera_.fy * most(high.y()) + camera_.cy))};
-    }
-
-    /** \return whether anything was cut off */
-    bool clip(PixelRect& rect) const {
-        const PixelRect whole = rect;
-        rect = {std::max(rect.u0, 0), std::max(rect.v0, 0), std::min(rect.u1, camera_.width - 1),
-                std::min(rect.v1, camera_.height - 1)};
-        return rect.u0 != whole.u0 || rect.v0 != whole.v0 || rect.u1 != whole.u1 ||
-               rect.v1 != whole.v1;
     }
 
     const DepthPyramid& sight_;

@@ -23,7 +23,8 @@ struct Layers {
 
 struct Column {
     int largest = std::numeric_limits<int>::min();
-    int free = 0;
+    int free = 0;      // voxels
+    int evidence = 0;  // sum of their log-odds
     bool floor = false;
 };
 
@@ -57,10 +58,9 @@ class ColumnMap {
         const Column& column = columns_[static_cast<std::size_t>(y) * extent_.width + x];
         if (column.largest >= 0) return column.largest;
         const int layers = obstacles_.high - obstacles_.low;
-        if (column.free < enough_of_column * layers) {
-            return column.floor ? std::optional<int>(2 * OccupancyVolume::miss) : std::nullopt;
-        }
-        return column.largest;
+        if (column.floor) return OccupancyVolume::lowest;
+        if (column.free < enough_of_column * layers) return std::nullopt;
+        return std::max<int>(column.evidence, OccupancyVolume::lowest);
     }
 
   private:
@@ -96,7 +96,9 @@ class ColumnMap {
                     if (floor) column.floor |= value >= 0;
                     if (!obstacle) continue;
                     column.largest = std::max(column.largest, value);
-                    column.free += value < 0;
+                    if (value >= 0) continue;
+                    ++column.free;
+                    column.evidence += value;
                 }
             }
         }
@@ -125,9 +127,9 @@ void buildGrid(const OccupancyVolume& volume, const MapOptions& options,
     const ColumnMap columns(volume, options);
     const Extent& extent = columns.extent();
     const double r = volume.resolution();
-    // Half a cell is taken off the far ends, for setSize() rounds up.
-    grid.setSize(r * extent.x0, r * (extent.x0 + std::max(extent.width, 1) - 0.5), r * extent.y0,
-                 r * (extent.y0 + std::max(extent.height, 1) - 0.5), r, 0.5f);
+    // Where nothing was seen, one unknown cell stands for the map.
+    grid.setSize(r * extent.x0, r * (extent.x0 + std::max(extent.width, 1)), r * extent.y0,
+                 r * (extent.y0 + std::max(extent.height, 1)), r, 0.5f);
     for (int y = 0; y < extent.height; ++y) {
         for (int x = 0; x < extent.width; ++x) {
             const auto value = columns.logOdds(x, y);

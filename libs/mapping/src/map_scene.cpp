@@ -12,8 +12,8 @@ namespace {
 
 using mrpt::img::TColor;
 
-const TColor background(236, 239, 243), floor_color(190, 197, 206, 160),
-    trajectory_color(240, 120, 20), keyframe_color(30, 90, 200), loop_color(215, 25, 60),
+const TColor background(236, 239, 243), floor_color(168, 176, 188, 200),
+    trajectory_color(235, 95, 0), keyframe_color(30, 90, 200), loop_color(215, 25, 60),
     before_color(130, 130, 140, 150);
 constexpr double frustum_depth_m = 0.12;
 
@@ -56,13 +56,13 @@ void addFrustum(mrpt::opengl::CSetOfLines& object, const SE3& T, const Camera& c
 }
 
 mrpt::opengl::CSetOfLines::Ptr frustums(const Trajectory& keyframes, const Camera& camera) {
-    auto object = lines(scene_names::keyframes, keyframe_color, 1);
+    auto object = lines(scene_names::keyframes, keyframe_color, 1.5f);
     for (const auto& keyframe : keyframes) addFrustum(*object, keyframe.T_world_cam, camera);
     return object;
 }
 
 mrpt::opengl::CSetOfLines::Ptr loopLines(const MapInputs& inputs) {
-    auto object = lines(scene_names::loops, loop_color, 2);
+    auto object = lines(scene_names::loops, loop_color, 3);
     for (const MapLoopEdge& loop : inputs.loops) {
         addSegment(*object, inputs.keyframes[loop.from].T_world_cam.t,
                    inputs.keyframes[loop.to].T_world_cam.t);
@@ -103,11 +103,11 @@ mrpt::opengl::COpenGLScene makeScene(const MapInputs& inputs, const PointMap& po
     scene.getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(background));
     scene.insert(floorGrid(points));
     scene.insert(cloud(points));
-    scene.insert(path(scene_names::trajectory, inputs.trajectory, trajectory_color, 2));
+    scene.insert(path(scene_names::trajectory, inputs.trajectory, trajectory_color, 3));
     scene.insert(frustums(inputs.keyframes, camera));
     scene.insert(loopLines(inputs));
     scene.insert(
-        path(scene_names::graph_before_loops, inputs.keyframes_before_loops, before_color, 1));
+        path(scene_names::graph_before_loops, inputs.keyframes_before_loops, before_color, 2));
     return scene;
 }
 

@@ -26,7 +26,7 @@ std::string rosYaml(const std::string& image, const mrpt::maps::COccupancyGridMa
     char text[512];
     std::snprintf(
         text, sizeof(text),
-        "image: %s\nmode: trinary\nresolution: %.9g\norigin: [%.9g, %.9g, 0.0]\nnegate: 0\n"
+        "image: %s\nmode: trinary\nresolution: %.6g\norigin: [%.6g, %.6g, 0.0]\nnegate: 0\n"
         "occupied_thresh: %.2f\nfree_thresh: %.2f\n",
         image.c_str(), grid.getResolution(), grid.getXMin(), grid.getYMin(), occupied_threshold,
         free_threshold);

@@ -13,11 +13,14 @@ namespace rgbd_graphslam {
 namespace {
 
 constexpr int tree_levels = 16;
+constexpr const char* binary_magic = "# Octomap OcTree binary file";
+constexpr const char* full_magic = "# Octomap OcTree file";
 
 /** The text before the nodes: `key value` lines up to `data`. */
 struct Header {
     std::string id;
     std::size_t nodes = 0;
+    double resolution_m = 0;
     std::size_t length = 0;  // bytes
 };
 
@@ -35,8 +38,10 @@ class OcTreeFile {
             words >> key;
             if (key == "id") words >> header_.id;
             if (key == "size") words >> header_.nodes;
+            if (key == "res") words >> header_.resolution_m;
         }
         if (line != "data" || lines.eof()) refuse("has no complete header");
+        if (!(header_.resolution_m > 0)) refuse("has no resolution");
         header_.length = static_cast<std::size_t>(lines.tellg());
     }
 
@@ -58,7 +63,9 @@ class OcTreeFile {
         checkCount();
     }
 
-    const std::string& bytes() const { return bytes_; }
+    double resolution() const { return header_.resolution_m; }
+    std::size_t nodes() const { return header_.nodes; }
+    std::string nodeBytes() const { return bytes_.substr(header_.length); }
 
     [[noreturn]] void refuse(const std::string& why) const {
         throw Error("'" + path_ + "' " + why, "write the map again with rgbd-map");
@@ -114,6 +121,14 @@ class OcTreeFile {
     std::size_t at_ = 0, found_ = 0;
 };
 
+/** As OctoMap's own writers do, which print to the terminal and do not check the stream. */
+void writeHeader(std::ostream& out, const char* magic, const octomap::AbstractOcTree& tree) {
+    out << magic
+        << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\n"
+        << "id " << tree.getTreeType() << "\nsize " << tree.size() << "\nres "
+        << tree.getResolution() << "\ndata\n";
+}
+
 template <class Write>
 void saveStream(const std::string& path, Write write) {
     writeAtomically(path, [&](const std::string& temporary) {
@@ -127,32 +142,36 @@ void saveStream(const std::string& path, Write write) {
 }  // namespace
 
 void saveBinaryOcTree(const std::string& path, const octomap::OcTree& tree) {
-    saveStream(path, [&](std::ostream& out) { return tree.writeBinaryConst(out); });
+    saveStream(path, [&](std::ostream& out) {
+        writeHeader(out, binary_magic, tree);
+        return tree.writeBinaryData(out).good();
+    });
 }
 
 void saveColorOcTree(const std::string& path, const octomap::ColorOcTree& tree) {
-    saveStream(path, [&](std::ostream& out) { return tree.write(out); });
+    saveStream(path, [&](std::ostream& out) {
+        writeHeader(out, full_magic, tree);
+        return tree.writeData(out).good();
+    });
 }
 
 std::unique_ptr<octomap::OcTree> loadBinaryOcTree(const std::string& path) {
-    OcTreeFile file(path, "# Octomap OcTree binary file");
+    OcTreeFile file(path, binary_magic);
     file.checkBinary("OcTree");
-    auto tree = std::make_unique<octomap::OcTree>(1.0);
-    std::istringstream in(file.bytes());
-    if (!tree->readBinary(in)) file.refuse("cannot be read by OctoMap");
+    auto tree = std::make_unique<octomap::OcTree>(file.resolution());
+    std::istringstream in(file.nodeBytes());
+    if (file.nodes() > 0) tree->readBinaryData(in);
     return tree;
 }
 
 std::unique_ptr<octomap::ColorOcTree> loadColorOcTree(const std::string& path) {
     constexpr std::size_t log_odds_and_color = 4 + 3;
-    OcTreeFile file(path, "# Octomap OcTree file");
+    OcTreeFile file(path, full_magic);
     file.checkFull("ColorOcTree", log_odds_and_color);
-    std::istringstream in(file.bytes());
-    std::unique_ptr<octomap::AbstractOcTree> any(octomap::AbstractOcTree::read(in));
-    auto* tree = dynamic_cast<octomap::ColorOcTree*>(any.get());
-    if (!tree) file.refuse("cannot be read by OctoMap");
-    any.release();
-    return std::unique_ptr<octomap::ColorOcTree>(tree);
+    auto tree = std::make_unique<octomap::ColorOcTree>(file.resolution());
+    std::istringstream in(file.nodeBytes());
+    if (file.nodes() > 0) tree->readData(in);
+    return tree;
 }
 
 }  // namespace rgbd_graphslam

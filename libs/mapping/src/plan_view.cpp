@@ -12,7 +12,7 @@ namespace {
 const cv::Scalar orange(20, 120, 240), blue(200, 90, 30), red(60, 25, 215), dark(60, 60, 60);
 const cv::Vec3b paper(243, 239, 236);
 constexpr int margin_px = 40;
-constexpr double lowest_ceiling_m = 2;
+constexpr double lowest_ceiling_m = 2, point_radius_m = 0.006;
 constexpr float outliers = 0.002f;  // share of points that may lie outside the picture on each side
 
 float ceilingOf(const MapInputs& inputs) {
@@ -68,7 +68,8 @@ class Paper {
 void drawPoints(Paper& paper_sheet, const PointMap& points, float ceiling_m) {
     cv::Mat3b& picture = paper_sheet.picture;
     cv::Mat1f height(picture.size(), -std::numeric_limits<float>::infinity());
-    constexpr int radius = 1;
+    const int radius =
+        std::max(1, static_cast<int>(std::lround(point_radius_m * paper_sheet.pixelsPerMetre())));
     for (const auto& [p, rgb] : points) {
         if (p.z() > ceiling_m) continue;
         const cv::Point center = paper_sheet.at(p);

@@ -1,8 +1,7 @@
 #include "rgbd_graphslam/mapping/simple_map.h"
 
-#include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
-#include <mrpt/obs/CObservationPointCloud.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/poses/CPose3DPDFGaussian.h>
 
@@ -35,21 +34,24 @@ std::vector<Eigen::Vector3f> thinned(const DepthView& view, const SE3& T_a_cam, 
     return points;
 }
 
-mrpt::obs::CObservationPointCloud::Ptr cloudObservation(const std::vector<Eigen::Vector3f>& points,
-                                                        const SE3& T_base_sensor) {
+/** MRPT 2.5's point maps forget the robot's pose when they insert a CObservationPointCloud, so the
+ *  points travel in the observation of a depth camera. */
+mrpt::obs::CObservation3DRangeScan::Ptr cloudObservation(const std::vector<Eigen::Vector3f>& points,
+                                                         const SE3& T_base_sensor,
+                                                         double max_range_m) {
     const SE3 T_sensor_base = T_base_sensor.inverse();
-    auto cloud = mrpt::maps::CSimplePointsMap::Create();
-    cloud->reserve(points.size());
-    for (const auto& in_base : points) {
-        const Eigen::Vector3d p = T_sensor_base * in_base.cast<double>();
-        cloud->insertPointFast(static_cast<float>(p.x()), static_cast<float>(p.y()),
-                               static_cast<float>(p.z()));
-    }
-    cloud->mark_as_modified();
-    auto observation = mrpt::obs::CObservationPointCloud::Create();
+    auto observation = mrpt::obs::CObservation3DRangeScan::Create();
     observation->sensorLabel = "DEPTH_POINTS";
     observation->sensorPose = toCPose3D(T_base_sensor);
-    observation->pointcloud = cloud;
+    observation->maxRange = static_cast<float>(max_range_m);
+    observation->hasPoints3D = true;
+    observation->resizePoints3DVectors(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Eigen::Vector3f p = (T_sensor_base * points[i].cast<double>()).cast<float>();
+        observation->points3D_x[i] = p.x();
+        observation->points3D_y[i] = p.y();
+        observation->points3D_z[i] = p.z();
+    }
     return observation;
 }
 
@@ -102,7 +104,8 @@ void addKeyframe(mrpt::maps::CSimpleMap& map, double stamp_s, const SE3& T_up_ca
     const SE3 T_up_base = basePose(T_up_cam);
     const SE3 T_base_cam = T_up_base.inverse() * T_up_cam;
     const auto points = thinned(view, T_base_cam, options.octree_resolution_m);
-    const auto cloud = cloudObservation(points, T_base_cam * T_optical_from_mrpt);
+    const auto cloud =
+        cloudObservation(points, T_base_cam * T_optical_from_mrpt, options.max_range_m);
     const auto scan = scanObservation(points, view.rays.camera(), options);
     cloud->timestamp = scan->timestamp = toMrptTime(stamp_s);
     auto frame = mrpt::obs::CSensoryFrame::Create();

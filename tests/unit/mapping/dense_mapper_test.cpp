@@ -6,6 +6,9 @@
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "box_room.h"
 #include "rgbd_graphslam/core/error.h"
 
@@ -23,6 +26,16 @@ struct Mapped {
     BoxRoom room;
     DenseMapper mapper;
 };
+
+/** Made once: most tests only look. */
+const Mapped& exactMap() {
+    static const Mapped map(false);
+    return map;
+}
+const Mapped& noisyMap() {
+    static const Mapped map(true);
+    return map;
+}
 
 /** \param share 0.5 for the median */
 double quantile(std::vector<double> values, double share) {
@@ -84,19 +97,223 @@ LeafShares leafShares(const Mapped& map) {
 }
 
 TEST(DenseMapper, pointsLieOnTheSurface) {
-    const Mapped exact(false), noisy(true);
-    EXPECT_LT(quantile(pointErrors(exact), 0.95), 0.001);
-    EXPECT_LT(quantile(pointErrors(noisy), 0.5), 0.008);
-    EXPECT_LT(quantile(pointErrors(noisy), 0.95), 0.04);
+    EXPECT_LT(quantile(pointErrors(exactMap()), 0.95), 0.001);
+    EXPECT_LT(quantile(pointErrors(noisyMap()), 0.5), 0.008);
+    EXPECT_LT(quantile(pointErrors(noisyMap()), 0.95), 0.04);
 }
 
 TEST(DenseMapper, octreeTellsSurfaceFromFreeSpace) {
-    for (const bool noisy : {false, true}) {
-        const LeafShares shares = leafShares(Mapped(noisy));
-        EXPECT_GT(shares.surface_occupied, 0.97) << noisy;
-        EXPECT_LT(shares.free_occupied, 0.01) << noisy;
-        EXPECT_GT(shares.free_known, 0.9) << noisy;
+    for (const Mapped* map : {&exactMap(), &noisyMap()}) {
+        const LeafShares shares = leafShares(*map);
+        EXPECT_GT(shares.surface_occupied, 0.97);
+        EXPECT_LT(shares.free_occupied, 0.01);
+        EXPECT_GT(shares.free_known, 0.9);
     }
+}
+
+TEST(DenseMapper, pointsHaveTheColorsOfTheirSurfaces) {
+    const Mapped& map = exactMap();
+    int table = 0;
+    for (const MapPoint& point : map.mapper.points()) {
+        const bool on_table = std::abs(point.position.z() - 0.74f) < 0.002f;
+        if (!on_table || point.position.x() < 1.25f || std::abs(point.position.y()) > 0.55f)
+            continue;
+        if (point.position.x() > 1.95f) continue;
+        ++table;
+        ASSERT_EQ(point.rgb, (std::array<std::uint8_t, 3>{200, 60, 40}));
+    }
+    EXPECT_GT(table, 1000);
+}
+
+TEST(DenseMapper, lensDistortionIsUndone) {
+    Camera camera = smallCamera();
+    camera.distortion = {0.2624, -0.9531, -0.0054, 0.0026, 1.1633};
+    const Mapped map(false, MapOptions(), camera);
+    EXPECT_LT(quantile(pointErrors(map), 0.95), 0.002);
+    EXPECT_GT(leafShares(map).surface_occupied, 0.97);
+    EXPECT_LT(leafShares(map).free_occupied, 0.01);
+}
+
+TEST(DenseMapper, gridShowsFurnitureWallsAndFreeFloor) {
+    const Mapped& map = noisyMap();
+    mrpt::maps::COccupancyGridMap2D grid;
+    map.mapper.grid(grid);
+    int free = 0, free_right = 0;
+    for (float x = -2.9f; x < 2.9f; x += 0.05f) {
+        for (float y = -1.9f; y < 1.9f; y += 0.05f) {
+            if (!map.room.isFree(Eigen::Vector3d(x, y, 0.3), 0.08)) continue;
+            ++free;
+            free_right += grid.getPos(x, y) > 0.75f;
+        }
+    }
+    EXPECT_GT(free_right, 0.9 * free);
+    for (const Box& box : map.room.furniture) {
+        // The side that faces the room's middle is an obstacle.
+        const Eigen::Vector3d center = 0.5 * (box.low + box.high);
+        EXPECT_LT(grid.getPos(static_cast<float>(center.x()), static_cast<float>(center.y())),
+                  0.75f);
+        int obstacle = 0;
+        for (double x = box.low.x() - 0.03; x < box.high.x() + 0.03; x += 0.025) {
+            for (double y = box.low.y() - 0.03; y < box.high.y() + 0.03; y += 0.025) {
+                obstacle += grid.getPos(static_cast<float>(x), static_cast<float>(y)) < 0.35f;
+            }
+        }
+        EXPECT_GT(obstacle, 50);
+    }
+    // Outside the room nothing was seen.
+    EXPECT_NEAR(grid.getPos(3.4f, 0.f), 0.5f, 1e-3f);
+}
+
+TEST(DenseMapper, gridCellsAreTheLeavesBelowThem) {
+    const auto& volume = noisyMap().mapper.volume();
+    mrpt::maps::COccupancyGridMap2D grid;
+    noisyMap().mapper.grid(grid);
+    EXPECT_EQ(grid.getSizeX() % 8, 0u);  // whole blocks of the volume
+    EXPECT_EQ(grid.getSizeY() % 8, 0u);
+    int obstacles = 0;
+    for (unsigned y = 0; y < grid.getSizeY(); ++y) {
+        for (unsigned x = 0; x < grid.getSizeX(); ++x) {
+            if (grid.getCell(static_cast<int>(x), static_cast<int>(y)) > 0.35f) continue;
+            bool occupied = false;
+            for (double z = 0.125; z < 1.5; z += 0.05) {
+                const auto log_odds =
+                    volume.logOdds(Eigen::Vector3d(grid.idx2x(x), grid.idx2y(y), z));
+                occupied |= log_odds && *log_odds >= 0;
+            }
+            ASSERT_TRUE(occupied) << x << " " << y;
+            ++obstacles;
+        }
+    }
+    EXPECT_GT(obstacles, 300);
+}
+
+TEST(DenseMapper, gridFindsWallsWhereTheyAre) {
+    const Mapped& map = exactMap();
+    mrpt::maps::COccupancyGridMap2D grid;
+    map.mapper.grid(grid);
+    int hit = 0, rows = 0;
+    for (float y = -1.8f; y < 1.8f; y += 0.05f, ++rows) {
+        hit += std::min(grid.getPos(-3.02f, y), grid.getPos(-2.98f, y)) < 0.35f;
+        EXPECT_GT(grid.getPos(-2.9f, y), 0.35f) << y;
+    }
+    EXPECT_GT(hit, 0.95 * rows);
+}
+
+/** A person who stands in the way in a few views and is gone in most. */
+TEST(DenseMapper, whoWalkedByIsLeftOut) {
+    BoxRoom with_person;
+    const Box person{{0.2, -0.3, 0}, {0.5, 0.0, 1.7}, {0, 255, 255}};
+    const BoxRoom empty;
+    with_person.furniture.push_back(person);
+    const SE3 T = lookingAlong({-2, 0, 1.2}, 0, 0.2);
+    DenseMapper mapper(MapOptions(), smallCamera());
+    for (int i = 0; i < 12; ++i)
+        mapper.insert(T, render(i < 2 ? with_person : empty, smallCamera(), T));
+    for (const MapPoint& point : mapper.points()) {
+        ASSERT_FALSE(person.holds(point.position.cast<double>(), -0.03) &&
+                     point.position.z() > 0.1f);
+    }
+}
+
+TEST(DenseMapper, readingsBeyondTheRangeMakeFreeSpaceOnly) {
+    MapOptions options;
+    options.max_range_m = 2;
+    const SE3 T = lookingAlong({-2.5, -1.5, 1.2}, 0, 0);
+    DenseMapper mapper(options, smallCamera());
+    mapper.insert(T, render(BoxRoom(), smallCamera(), T));
+    const auto before = mapper.volume().logOdds(Eigen::Vector3d(-1, -1.5, 1.2));
+    EXPECT_TRUE(before && *before < 0);
+    EXPECT_FALSE(mapper.volume().logOdds(Eigen::Vector3d(2, -1.5, 1.2)));
+    for (const MapPoint& point : mapper.points()) ASSERT_LT(point.position.x(), -2.5 + 2.01);
+}
+
+TEST(DenseMapper, flyingPixelsBetweenForegroundAndBackgroundAreDropped) {
+    RgbdImage image;
+    image.depth_unit_m = 0.001;
+    image.depth = cv::Mat(240, 320, CV_16UC1, cv::Scalar(3000));
+    image.depth.colRange(0, 160) = 1000;
+    image.depth.col(160) = 2000;  // between the two
+    const cv::Mat1f clean = cleanDepth(image, smallCamera(), MapOptions());
+    EXPECT_EQ(clean(120, 160), 0);
+    EXPECT_NEAR(clean(120, 100), 1, 1e-6);
+    EXPECT_NEAR(clean(120, 200), 3, 1e-6);
+}
+
+template <class Function>
+std::string problemOf(Function function) {
+    try {
+        function();
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+TEST(DenseMapper, nothingIsNotANumber) {
+    const Mapped& map = noisyMap();
+    for (const MapPoint& point : map.mapper.points()) ASSERT_TRUE(point.position.allFinite());
+    DenseMapper mapper(MapOptions(), smallCamera());
+    SE3 broken;
+    broken.t.x() = std::nan("");
+    const RgbdImage image = render(BoxRoom(), smallCamera(), SE3());
+    EXPECT_THAT(problemOf([&] { mapper.insert(broken, image); }), testing::HasSubstr("not finite"));
+}
+
+TEST(DenseMapper, emptyDepthLeavesEmptyMaps) {
+    RgbdImage image;
+    image.depth = cv::Mat(240, 320, CV_16UC1, cv::Scalar(0));
+    DenseMapper mapper(MapOptions(), smallCamera());
+    mapper.insert(SE3(), image);
+    EXPECT_TRUE(mapper.points().empty());
+    EXPECT_EQ(mapper.octree()->size(), 0u);
+    mrpt::maps::COccupancyGridMap2D grid;
+    mapper.grid(grid);
+    EXPECT_EQ(grid.getSizeX() * grid.getSizeY(), 1u);
+    EXPECT_NEAR(grid.getCell(0, 0), 0.5f, 0.01f);
+}
+
+TEST(DenseMapper, imageOfAnotherSizeIsRefused) {
+    RgbdImage image;
+    image.depth = cv::Mat(480, 640, CV_16UC1, cv::Scalar(1000));
+    DenseMapper mapper(MapOptions(), smallCamera());
+    EXPECT_THAT(problemOf([&] { mapper.insert(SE3(), image); }),
+                testing::AllOf(testing::HasSubstr("640x480"), testing::HasSubstr("320x240")));
+}
+
+TEST(DenseMapper, tooLargeAMapIsRefusedWithTheResolutionThatFits) {
+    MapOptions options;
+    options.octree_resolution_m = options.grid_resolution_m = 0.005;
+    options.memory_limit_mb = 64;
+    DenseMapper mapper(options, smallCamera());
+    const auto poses = walk(24);
+    const std::string problem = problemOf([&] {
+        for (const SE3& T : poses) mapper.insert(T, render(BoxRoom(), smallCamera(), T));
+    });
+    EXPECT_THAT(problem, testing::AllOf(testing::HasSubstr("64"),
+                                        testing::HasSubstr("octree_resolution_m")));
+    const double advised = std::strtod(problem.c_str() + problem.find(" to ") + 4, nullptr);
+    EXPECT_GT(advised, 0.005);
+    EXPECT_LT(advised, 0.05);
+}
+
+TEST(DenseMapper, poseOutOfReachOfAnOctreeIsRefused) {
+    DenseMapper mapper(MapOptions(), smallCamera());
+    const RgbdImage image = render(BoxRoom(), smallCamera(), SE3());
+    EXPECT_THAT(problemOf([&] {
+                    mapper.insert(SE3(Eigen::Matrix3d::Identity(), {2000, 0, 0}), image);
+                }),
+                testing::HasSubstr("out of reach"));
+    EXPECT_EQ(problemOf([&] {
+                  mapper.insert(SE3(Eigen::Matrix3d::Identity(), {1500, 0, 0}), image);
+              }),
+              "");
+}
+
+TEST(DenseMapper, isTheSameEachRun) {
+    const PointMap points_a = noisyMap().mapper.points(), points_b = Mapped(true).mapper.points();
+    ASSERT_EQ(points_a.size(), points_b.size());
+    for (std::size_t i = 0; i < points_a.size(); ++i)
+        ASSERT_EQ(points_a[i].position, points_b[i].position);
 }
 
 }  // namespace

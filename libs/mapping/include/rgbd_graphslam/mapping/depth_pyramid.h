@@ -5,10 +5,10 @@
 
 namespace rgbd_graphslam {
 
-/** Pixels [u0, u1] x [v0, v1], both ends included and inside the image. */
+/** Pixels [u0, u1] x [v0, v1], both ends included. */
 struct PixelRect {
     int u0, v0, u1, v1;
-    int area() const { return (u1 - u0 + 1) * (v1 - v0 + 1); }
+    double area() const { return (u1 - u0 + 1.) * (v1 - v0 + 1.); }
 };
 
 /** Nearest and farthest readings over tiles of growing size (a hierarchical z-buffer: Greene, Kass
@@ -26,7 +26,7 @@ class DepthPyramid {
      */
     Range range(const PixelRect& rect) const;
 
-    /** Readings within the rectangle, exactly. */
+    /** Readings within the rectangle, exactly. \param rect inside the image */
     int readings(const PixelRect& rect) const;
 
     int width() const { return count_.cols - 1; }

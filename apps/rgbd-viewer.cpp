@@ -1,0 +1,45 @@
+/** Shows a finished run's map. */
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/viewer/snapshot.h"
+
+using namespace rgbd_graphslam;
+
+namespace {
+
+/** An output folder stands for its scene. */
+std::string scenePath(const std::string& where) {
+    namespace fs = std::filesystem;
+    return fs::is_directory(where) ? (fs::path(where) / "scene.3Dscene").string() : where;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::string where, picture;
+    ViewOptions view;
+    bool with_ceiling = false, quiet = false, verbose = false;
+    CLI::App app("Renders the map of a finished run.");
+    app.add_option("OUT", where, "Output folder of rgbd-slam, or a .3Dscene")->required();
+    app.add_option("--snapshot", picture, "PNG to write; needs no display")->required();
+    app.add_option("--width", view.width_px, "Pixels")->check(CLI::Range(16, 8192));
+    app.add_option("--height", view.height_px, "Pixels")->check(CLI::Range(16, 8192));
+    app.add_option("--azimuth", view.azimuth_deg, "Look from this direction, degrees from +x");
+    app.add_option("--elevation", view.elevation_deg, "Look down from this angle, degrees")
+        ->check(CLI::Range(-89, 90));
+    app.add_option("--zoom", view.zoom, "Above 1 is nearer")->check(CLI::PositiveNumber);
+    app.add_flag("--ceiling", with_ceiling, "Leave the ceiling on");
+    app.add_flag("-q,--quiet", quiet, "Warnings and errors only");
+    app.add_flag("-v,--verbose", verbose, "Say more");
+    app.set_version_flag("--version", RGBD_VERSION);
+    CLI11_PARSE(app, argc, argv);
+    return runMain("rgbd-viewer", [&] {
+        setVerbosity(quiet ? Verbosity::Quiet : verbose ? Verbosity::Verbose : Verbosity::Normal);
+        view.cut_ceiling = !with_ceiling;
+        renderSnapshot(loadScene(scenePath(where)), view, picture);
+        sayInfo("wrote " + picture);
+        return 0;
+    });
+}

@@ -1,0 +1,277 @@
+#include "rgbd_graphslam/mapping/map_builder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/maps/CSimpleMap.h>
+#include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CSensoryFrame.h>
+#include <mrpt/opengl/COpenGLScene.h>
+#include <mrpt/opengl/CPointCloudColoured.h>
+#include <mrpt/opengl/CSetOfLines.h>
+
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+
+#include "box_room.h"
+#include "rgbd_graphslam/core/atomic_file.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/mrpt_conversions.h"
+#include "rgbd_graphslam/dataset/rawlog_writer.h"
+#include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/mapping/map_files.h"
+#include "rgbd_graphslam/mapping/map_scene.h"
+#include "rgbd_graphslam/mapping/run_folder.h"
+
+namespace rgbd_graphslam {
+namespace {
+using namespace testing_room;
+namespace fs = std::filesystem;
+
+constexpr double first_stamp_s = 1305031102.175304;
+const SE3 T_world_room(rotationExp({0.7, -0.4, 1.1}), {3, -2, 5});
+
+/** A rawlog of a walk through the box room, with poses in a world that is not upright. */
+class MapBuilder : public testing::Test {
+  protected:
+    MapBuilder() {
+        fs::create_directories(folder_);
+        const auto poses = walk(8);
+        for (std::size_t i = 0; i < poses.size(); ++i) {
+            inputs_.keyframes.push_back(
+                {first_stamp_s + 0.1 * static_cast<double>(i), T_world_room * poses[i]});
+        }
+        inputs_.trajectory = inputs_.keyframes;
+        inputs_.rawlog = path("walk.rawlog");
+        inputs_.loops = {{0, 7, 40}};
+    }
+    ~MapBuilder() override { fs::remove_all(folder_); }
+
+    /** \param tilt turns what the accelerometer says away from the truth, rad */
+    void writeWalk(bool with_accelerometer, double tilt = 0) const {
+        writeRawlog(inputs_.rawlog, RawlogStorage::Embedded, [&](RawlogWriter& writer) {
+            for (const auto& pose : inputs_.keyframes) {
+                writeFrame(writer, pose);
+                if (with_accelerometer) writeAccelerometer(writer, pose, tilt);
+            }
+        });
+    }
+
+    static void writeFrame(RawlogWriter& writer, const StampedPose& pose) {
+        CameraSetup setup;
+        setup.camera = smallCamera();
+        const RgbdImage image =
+            render(BoxRoom(), setup.camera, T_world_room.inverse() * pose.T_world_cam);
+        const auto frame = makeRgbdObservation(setup, pose.stamp_s);
+        setDepth(*frame, image.depth);
+        setColor(*frame, image.color);
+        writer.writeFrame(*frame, "");
+    }
+
+    static void writeAccelerometer(RawlogWriter& writer, const StampedPose& pose, double tilt) {
+        const SE3 T_room_cam = T_world_room.inverse() * pose.T_world_cam;
+        const Eigen::Vector3d up = rotationExp({tilt, 0, 0}) * Eigen::Vector3d(0, 0, 9.81);
+        const Eigen::Vector3d force =
+            T_optical_from_mrpt.R.transpose() * (T_room_cam.R.transpose() * up);
+        for (int i = 0; i < 4; ++i) {
+            mrpt::obs::CObservationIMU imu;
+            imu.timestamp = toMrptTime(pose.stamp_s + 0.001 * i);
+            imu.set(mrpt::obs::IMU_X_ACC, force.x());
+            imu.set(mrpt::obs::IMU_Y_ACC, force.y());
+            imu.set(mrpt::obs::IMU_Z_ACC, force.z());
+            writer.write(imu);
+        }
+    }
+
+    std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+    fs::path folder_ =
+        fs::path(testing::TempDir()) / ("rgbd-map-builder-" + std::to_string(getpid()));
+    MapInputs inputs_;
+};
+
+template <class Function>
+std::string problemOf(Function function) {
+    try {
+        function();
+    } catch (const Error& e) {
+        return e.what();
+    }
+    return "";
+}
+
+double tiltDegrees(const SE3& T_up_world) {
+    const Eigen::Vector3d up = T_up_world.R * T_world_room.R.col(2);
+    return std::acos(std::min(1., up.z())) * 180 / M_PI;
+}
+
+TEST_F(MapBuilder, uprightByTheFloorWithoutAccelerometer) {
+    writeWalk(false);
+    const SE3 T_up_world = uprightFromWorld(inputs_, MapOptions());
+    EXPECT_LT(tiltDegrees(T_up_world), 0.2);
+    EXPECT_NEAR((T_up_world * (T_world_room * Eigen::Vector3d::Zero())).z(), 0, 0.01);
+}
+
+TEST_F(MapBuilder, accelerometerIsBelievedBeforeTheFloor) {
+    const double tilt = 3 * M_PI / 180;
+    writeWalk(true, tilt);
+    EXPECT_NEAR(tiltDegrees(uprightFromWorld(inputs_, MapOptions())), 3, 0.1);
+    MapOptions by_floor;
+    by_floor.upright = "floor";
+    EXPECT_LT(tiltDegrees(uprightFromWorld(inputs_, by_floor)), 0.2);
+}
+
+TEST_F(MapBuilder, withoutEitherTheFirstCameraIsLevel) {
+    writeWalk(false);
+    MapOptions options;
+    options.upright = "none";
+    const SE3 T_up_first =
+        uprightFromWorld(inputs_, options) * inputs_.keyframes.front().T_world_cam;
+    EXPECT_LT((T_up_first.R.col(1) + Eigen::Vector3d::UnitZ()).norm(), 1e-9);
+}
+
+TEST_F(MapBuilder, everyFileIsWrittenAndReadsBack) {
+    writeWalk(false);
+    const MapInputs upright = transformed(uprightFromWorld(inputs_, MapOptions()), inputs_);
+    const std::string out = path("out");
+    const MapSummary summary = writeMaps(upright, MapOptions(), out);
+    EXPECT_EQ(summary.keyframes, 8u);
+
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(out))
+        names.push_back(entry.path().filename().string());
+    EXPECT_THAT(names, testing::UnorderedElementsAre("points.ply", "points.pcd", "points.metricmap",
+                                                     "octree.bt", "octree.ot", "grid.gridmap.gz",
+                                                     "grid.png", "grid.yaml", "map.simplemap",
+                                                     "scene.3Dscene", "map.png"));
+    EXPECT_EQ(loadPly(out + "/points.ply").size(), summary.points);
+
+    mrpt::maps::CSimpleMap simple;
+    ASSERT_TRUE(simple.loadFromFile(out + "/map.simplemap"));
+    EXPECT_EQ(simple.size(), 8u);
+
+    mrpt::opengl::COpenGLScene scene;
+    ASSERT_TRUE(scene.loadFromFile(out + "/scene.3Dscene"));
+    const auto points = std::dynamic_pointer_cast<mrpt::opengl::CPointCloudColoured>(
+        scene.getByName(scene_names::points));
+    ASSERT_TRUE(points);
+    EXPECT_EQ(points->size(), summary.points);
+    const auto loops =
+        std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(scene.getByName(scene_names::loops));
+    ASSERT_TRUE(loops);
+    EXPECT_EQ(loops->getLineCount(), 1u);
+    EXPECT_FALSE(cv::imread(out + "/map.png").empty());
+}
+
+/** What robot-map-gui and pf-localization do with the simple map. */
+TEST_F(MapBuilder, simpleMapMakesTheSameWallsIn2dAnd3d) {
+    writeWalk(false);
+    const MapInputs upright = transformed(uprightFromWorld(inputs_, MapOptions()), inputs_);
+    writeMaps(upright, MapOptions(), path("out"));
+    mrpt::maps::CSimpleMap simple;
+    ASSERT_TRUE(simple.loadFromFile(path("out/map.simplemap")));
+    mrpt::maps::CSimplePointsMap cloud;
+    for (std::size_t i = 0; i < simple.size(); ++i) {
+        const auto [pose, frame] = simple.get(i);
+        const mrpt::poses::CPose3D mean = pose->getMeanVal();
+        cloud.insertObservation(*frame->getObservationByClass<mrpt::obs::CObservation3DRangeScan>(),
+                                mean);
+    }
+    ASSERT_GT(cloud.size(), 1000u);
+    // The way back from upright to the room.
+    const SE3 T_room_up = T_world_room.inverse() * inputs_.keyframes[0].T_world_cam *
+                          upright.keyframes[0].T_world_cam.inverse();
+    int far = 0;
+    for (std::size_t i = 0; i < cloud.size(); ++i) {
+        float x, y, z;
+        cloud.getPoint(i, x, y, z);
+        far += BoxRoom().distanceToSurface(T_room_up * Eigen::Vector3d(x, y, z)) > 0.03;
+    }
+    EXPECT_LT(far, 0.02 * static_cast<double>(cloud.size()));
+
+    mrpt::maps::COccupancyGridMap2D grid(-5, 5, -5, 5, 0.05f);
+    grid.insertionOptions.considerInvalidRangesAsFreeSpace = false;
+    grid.loadFromSimpleMap(simple);
+    int obstacles = 0, misplaced = 0;
+    for (unsigned y = 0; y < grid.getSizeY(); ++y) {
+        for (unsigned x = 0; x < grid.getSizeX(); ++x) {
+            if (grid.getCell(static_cast<int>(x), static_cast<int>(y)) > 0.2f) continue;
+            ++obstacles;
+            const Eigen::Vector3d p =
+                T_room_up * Eigen::Vector3d(grid.idx2x(x), grid.idx2y(y), 0.4);
+            misplaced += BoxRoom().isFree(p, 0.1) && BoxRoom().isFree({p.x(), p.y(), 0.7}, 0.1);
+        }
+    }
+    EXPECT_GT(obstacles, 100);
+    EXPECT_LT(misplaced, 0.05 * obstacles);
+}
+
+TEST_F(MapBuilder, mistakesInTheInputsAreNamed) {
+    writeWalk(false);
+    MapInputs wrong = inputs_;
+    wrong.loops = {{0, 8, 1}};
+    EXPECT_THAT(problemOf([&] { writeMaps(wrong, MapOptions(), path("out")); }),
+                testing::HasSubstr("keyframe 8 of 8"));
+    wrong = inputs_;
+    for (auto& keyframe : wrong.keyframes) keyframe.stamp_s += 100;
+    EXPECT_THAT(problemOf([&] { writeMaps(wrong, MapOptions(), path("out")); }),
+                testing::HasSubstr("--rawlog"));
+    wrong.keyframes.clear();
+    EXPECT_THAT(problemOf([&] { writeMaps(wrong, MapOptions(), path("out")); }),
+                testing::HasSubstr("no keyframe"));
+}
+
+class RunFolder : public MapBuilder {
+  protected:
+    RunFolder() {
+        writeWalk(false);
+        writeTextAtomically(path("keyframes.txt"), toTumText(inputs_.keyframes));
+        writeTextAtomically(path("trajectory.txt"), toTumText(inputs_.trajectory));
+        writeTextAtomically(path("summary.json"),
+                            R"({"rawlog": "walk.rawlog", "loop_edges": [[0, 7, 40]]})");
+    }
+};
+
+TEST_F(RunFolder, readsBackWhatMapsAreMadeOf) {
+    const MapInputs read = readRunFolder(folder_.string(), "");
+    EXPECT_EQ(read.keyframes.size(), 8u);
+    EXPECT_EQ(read.rawlog, path("walk.rawlog"));
+    ASSERT_EQ(read.loops.size(), 1u);
+    EXPECT_EQ(read.loops[0].to, 7);
+    EXPECT_EQ(writeMaps(read, MapOptions(), path("out")).keyframes, 8u);
+}
+
+TEST_F(RunFolder, optionsAreReadPastOtherSections) {
+    EXPECT_EQ(readRunOptions(folder_.string()).octree_resolution_m, 0.05);
+    writeTextAtomically(
+        path("config.ini"),
+        "[TrackerOptions]\nfeatures = 7\n[MapOptions]\noctree_resolution_m = 0.08\n");
+    EXPECT_EQ(readRunOptions(folder_.string()).octree_resolution_m, 0.08);
+    writeTextAtomically(path("config.ini"), "[MapOptions]\noctree_resolution = 0.08\n");
+    EXPECT_THAT(problemOf([&] { readRunOptions(folder_.string()); }),
+                testing::HasSubstr("config.ini:2"));
+}
+
+TEST_F(RunFolder, whatIsMissingOrBrokenIsNamed) {
+    const auto problem = [&] { return problemOf([&] { readRunFolder(folder_.string(), ""); }); };
+    writeTextAtomically(path("summary.json"), R"({"rawlog": "gone.rawlog"})");
+    EXPECT_THAT(problem(),
+                testing::AllOf(testing::HasSubstr("gone.rawlog"), testing::HasSubstr("--rawlog")));
+    writeTextAtomically(path("summary.json"), "{}");
+    EXPECT_THAT(problem(), testing::HasSubstr("--rawlog"));
+    EXPECT_EQ(problemOf([&] { readRunFolder(folder_.string(), path("walk.rawlog")); }), "");
+    writeTextAtomically(path("summary.json"), R"({"rawlog": "walk.ra)");
+    EXPECT_THAT(problem(), testing::HasSubstr("summary.json"));
+    writeTextAtomically(path("summary.json"), R"({"rawlog": "walk.rawlog", "loop_edges": "none"})");
+    EXPECT_THAT(problem(), testing::HasSubstr("loop_edges"));
+    fs::remove(path("keyframes.txt"));
+    EXPECT_THAT(problem(), testing::HasSubstr("keyframes.txt"));
+    EXPECT_THAT(problemOf([&] { readRunFolder(path("none"), ""); }), testing::HasSubstr("none"));
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam

@@ -1,0 +1,97 @@
+#include "rgbd_graphslam/viewer/snapshot.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <opencv2/imgcodecs.hpp>
+
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/mapping/map_files.h"
+#include "rgbd_graphslam/mapping/map_scene.h"
+
+namespace rgbd_graphslam {
+namespace {
+namespace fs = std::filesystem;
+
+class Snapshot : public testing::Test {
+  protected:
+    Snapshot() { fs::create_directories(folder_); }
+    ~Snapshot() override { fs::remove_all(folder_); }
+    std::string path(const char* name) const { return (folder_ / name).string(); }
+
+    /** A square metre of one colour at a height. */
+    static PointMap sheet(float z, std::array<std::uint8_t, 3> rgb) {
+        PointMap points;
+        for (float x = -0.5f; x < 0.5f; x += 0.01f) {
+            for (float y = -0.5f; y < 0.5f; y += 0.01f) points.push_back({{x, y, z}, rgb});
+        }
+        return points;
+    }
+
+    fs::path folder_ = fs::path(testing::TempDir()) / ("rgbd-snapshot-" + std::to_string(getpid()));
+};
+
+int pixelsLike(const cv::Mat3b& image, const cv::Vec3b& bgr) {
+    int count = 0;
+    for (const auto& pixel : image) {
+        count += cv::norm(cv::Vec3i(pixel) - cv::Vec3i(bgr), cv::NORM_INF) < 30;
+    }
+    return count;
+}
+
+TEST_F(Snapshot, showsTheFloorThroughTheCeilingUnlessToldNotTo) {
+    PointMap points = sheet(0, {200, 30, 20});
+    const PointMap ceiling = sheet(2.5f, {20, 30, 200});
+    points.insert(points.end(), ceiling.begin(), ceiling.end());
+    const auto scene = makeScene(MapInputs(), points, Camera());
+    ViewOptions view;
+    view.width_px = 320, view.height_px = 240, view.elevation_deg = 89;
+    renderSnapshot(scene, view, path("a.png"));
+    const cv::Mat3b open = cv::imread(path("a.png"));
+    ASSERT_EQ(open.size(), cv::Size(320, 240));
+    EXPECT_GT(pixelsLike(open, {20, 30, 200}), 5000);
+    EXPECT_EQ(pixelsLike(open, {200, 30, 20}), 0);
+    view.cut_ceiling = false;
+    renderSnapshot(scene, view, path("b.png"));
+    EXPECT_GT(pixelsLike(cv::imread(path("b.png")), {200, 30, 20}), 1000);
+}
+
+TEST_F(Snapshot, pathsAreSeen) {
+    MapInputs inputs;
+    for (int i = 0; i < 20; ++i)
+        inputs.trajectory.push_back(
+            {0.1 * i, SE3(Eigen::Matrix3d::Identity(), {0.05 * i - 0.5, 0, 1})});
+    inputs.keyframes = {inputs.trajectory.front(), inputs.trajectory.back()};
+    inputs.loops = {{0, 1, 9}};
+    ViewOptions view;
+    view.width_px = 320, view.height_px = 240;
+    renderSnapshot(makeScene(inputs, sheet(0, {200, 200, 200}), Camera()), view, path("a.png"));
+    const cv::Mat3b image = cv::imread(path("a.png"));
+    EXPECT_GT(pixelsLike(image, {200, 90, 30}), 20);  // keyframes, blue
+    EXPECT_GT(pixelsLike(image, {60, 25, 215}), 20);  // loop, red, over the straight trajectory
+}
+
+TEST_F(Snapshot, sceneFilesThatAreNoScenesAreRefused) {
+    const auto problem = [&](const std::string& file) {
+        try {
+            loadScene(file);
+        } catch (const Error& e) {
+            return std::string(e.what());
+        }
+        return std::string();
+    };
+    saveMrptObject(path("a.3Dscene"), makeScene(MapInputs(), sheet(0, {1, 2, 3}), Camera()));
+    EXPECT_EQ(problem(path("a.3Dscene")), "");
+    for (const double share : {0.0, 0.2, 0.9}) {
+        saveMrptObject(path("a.3Dscene"), makeScene(MapInputs(), sheet(0, {1, 2, 3}), Camera()));
+        fs::resize_file(path("a.3Dscene"),
+                        static_cast<std::uintmax_t>(
+                            share * static_cast<double>(fs::file_size(path("a.3Dscene")))));
+        EXPECT_THAT(problem(path("a.3Dscene")), testing::HasSubstr("a.3Dscene")) << share;
+    }
+    EXPECT_THAT(problem(path("none.3Dscene")), testing::HasSubstr("none.3Dscene"));
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
