@@ -123,6 +123,7 @@ void writeCameraIni(const std::string& folder, const Camera& camera, bool on_rob
         camera.width, camera.height, camera.cx, camera.cy, camera.fx, camera.fy);
     const Eigen::Vector3d at = on_robot ? robotCamera().t : Eigen::Vector3d::Zero();
     text += formatted("sensor_pose = [%.3f %.3f %.3f 0 0 0]\n", at.x(), at.y(), at.z());
+    text += "imu_pose = [0 0 0 -90 0 -90]\n";  // the optical frame
     writeTextAtomically(folder + "/camera.ini", text);
 }
 
