@@ -5,6 +5,7 @@
 
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/synth/contact_sheet.h"
 #include "rgbd_graphslam/synth/sequence.h"
 
 using namespace rgbd_graphslam;
@@ -15,6 +16,13 @@ void list() {
         std::printf("%-14s %5d frames%s  %s\n", scenario.name.c_str(), scenario.frames,
                     scenario.sessions > 1 ? ", 2 sessions" : "            ",
                     scenario.about.c_str());
+}
+
+void makeSheet(const std::vector<std::string>& picture_and_folders) {
+    if (picture_and_folders.size() < 2)
+        throw Error("--contact-sheet names no sequence", "write --contact-sheet PICTURE DIR...");
+    synth::writeContactSheet({picture_and_folders.begin() + 1, picture_and_folders.end()},
+                             picture_and_folders.front());
 }
 
 void setSize(const std::string& text, synth::FilmOptions& options) {
@@ -37,6 +45,7 @@ int main(int argc, char** argv) {
         "benchmark.");
     synth::FilmOptions options;
     std::string scenario, folder, size = "640x480", noise = "kinect";
+    std::vector<std::string> sheet;
     bool list_only = false, quiet = false, verbose = false;
     app.add_option("scenario", scenario, "see --list");
     app.add_option("out_dir", folder, "new folder for the sequence");
@@ -52,6 +61,8 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--registration-error", options.registration_error_px,
                    "shift of depth against colour, pixels");
+    app.add_option("--contact-sheet", sheet,
+                   "PICTURE DIR...: show finished sequences in one picture, film nothing");
     app.add_option("--session", options.session, "of a scenario with several")
         ->capture_default_str();
     app.add_flag("--quiet", quiet, "no progress");
@@ -61,6 +72,7 @@ int main(int argc, char** argv) {
     return runMain("rgbd-synth", [&] {
         setVerbosity(quiet ? Verbosity::Quiet : verbose ? Verbosity::Verbose : Verbosity::Normal);
         if (list_only) return list(), 0;
+        if (!sheet.empty()) return makeSheet(sheet), 0;
         if (scenario.empty() || folder.empty())
             throw Error("scenario or folder is missing", "see rgbd-synth --help");
         options.noise = noise == "kinect";

@@ -190,9 +190,10 @@ void Furnisher::bookRow(const SE3& frame, double width, double headroom) {
         const double thick = random_.uniform(0.018, 0.055);
         const double tall = std::min(headroom - 0.02, random_.uniform(0.17, 0.3));
         const double deep = random_.uniform(0.15, 0.23);
-        const Skin cover = spine();
+        BoxSkin cover(spine());
+        cover.back = cover.bottom = kHidden;
         box(shifted(frame, deep / 2 + random_.uniform(0.02, 0.05), y + thick / 2, 0),
-            {deep, thick, tall}, BoxSkin(cover));
+            {deep, thick, tall}, cover);
         y += thick + 0.002;
     }
 }
@@ -325,6 +326,7 @@ void Furnisher::bookPile(const SE3& frame, int count) {
 void Furnisher::papers(const SE3& frame, int count) {
     for (int i = 0; i < count; ++i) {
         BoxSkin skin(Skin{white_});
+        skin.bottom = kHidden;
         skin.top = anyOf(papers_);
         box(turned(
                 shifted(frame, random_.uniform(-0.1, 0.1), random_.uniform(-0.12, 0.12), 0.004 * i),
@@ -362,26 +364,30 @@ void Furnisher::clutter(const SE3& frame, double length, double width, int count
 
 // ---- people --------------------------------------------------------------------------------
 
-int Furnisher::personTrunk() {
+Figure Furnisher::trunk(const Skin& shirt) {
     Figure figure;
-    const Skin shirt = anyOf(fabrics_);
     addBox(scene_, figure.quads, standing(0, 0, 0.88, 0), {0.24, 0.42, 0.58}, BoxSkin(shirt));
     addCylinder(figure.quads, standing(0, 0, 1.44, 0), 0.06, 0.06, 0.08, Skin{face_}, Skin{face_});
     addCylinder(figure.quads, standing(0, 0, 1.5, -0.6), 0.085, 0.1, 0.25, Skin{face_},
                 Skin{face_, {0.4, 0}, {0.6, 0.2}});
-    scene_.figures.push_back(figure);
-    return static_cast<int>(scene_.figures.size()) - 1;
+    return figure;
 }
 
-int Furnisher::personLimb(double length, double thickness, bool leg) {
+Figure Furnisher::limb(double length, double thickness, const Skin& cloth, bool with_shoe) {
     Figure figure;
     addBox(scene_, figure.quads, standing(0, 0, -length, 0), {thickness, thickness, length},
-           BoxSkin(Skin{leg ? fabrics_[0] : fabrics_[1]}));
-    if (leg)
+           BoxSkin(cloth));
+    if (with_shoe)
         addBox(scene_, figure.quads, standing(0.05, 0, -length, 0), {0.26, 0.1, 0.08},
                BoxSkin(Skin{black_}));
-    scene_.figures.push_back(figure);
-    return static_cast<int>(scene_.figures.size()) - 1;
+    return figure;
+}
+
+void Furnisher::person() {
+    const Skin shirt = anyOf(clothes_), trousers = anyOf(fabrics_);
+    scene_.figures.push_back(trunk(shirt));
+    for (int leg = 0; leg < 2; ++leg) scene_.figures.push_back(limb(0.88, 0.15, trousers, true));
+    for (int arm = 0; arm < 2; ++arm) scene_.figures.push_back(limb(0.65, 0.1, shirt, false));
 }
 
 }  // namespace rgbd_graphslam::synth

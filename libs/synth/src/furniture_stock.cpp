@@ -13,7 +13,7 @@ std::vector<int> stock(Scene& scene, int count, double tile_m, double glow, Pain
 }
 }  // namespace
 
-Furnisher::Furnisher(Scene& scene, std::uint64_t seed)
+Furnisher::Furnisher(Scene& scene, std::uint64_t seed, int variety)
     : scene_(scene), random_(Random::of(seed, 1)) {
     Random& r = random_;
     const Bgr walls[] = {{196, 216, 222}, {205, 205, 190}, {170, 205, 215}, {200, 190, 200}};
@@ -21,14 +21,15 @@ Furnisher::Furnisher(Scene& scene, std::uint64_t seed)
     plaster_ = stock(scene, 4, 2.6, 0, [&](int i) { return paintPlaster(walls[i], 9, r); });
     woods_ = stock(scene, 4, 0.9, 0, [&](int i) { return paintWood(woods[i], r); });
     fabrics_ = stock(scene, 4, 0.35, 0, [&](int) { return paintFabric(quietColor(r), r); });
+    clothes_ = stock(scene, 3, 0.45, 0, [&](int) { return paintFabric(vividColor(r), r); });
     metals_ =
         stock(scene, 2, 0.5, 0, [&](int i) { return paintMetal(Bgr::all(i == 0 ? 165 : 70), r); });
-    posters_ = stock(scene, 8, 0, 0, [&](int) { return paintPoster(r); });
-    arts_ = stock(scene, 4, 0, 0, [&](int) { return paintArt(r); });
-    papers_ = stock(scene, 5, 0, 0, [&](int) { return paintPaper(r); });
+    posters_ = stock(scene, 8 * variety, 0, 0, [&](int) { return paintPoster(r); });
+    arts_ = stock(scene, 4 * variety, 0, 0, [&](int) { return paintArt(r); });
+    papers_ = stock(scene, 5 * variety, 0, 0, [&](int) { return paintPaper(r); });
     screens_ = stock(scene, 3, 0, 0.55, [&](int) { return paintScreen(r); });
     boxes_ = stock(scene, 3, 0, 0, [&](int) { return paintCardboard(r); });
-    packages_ = stock(scene, 6, 0, 0, [&](int) { return paintPackage(r); });
+    packages_ = stock(scene, 6 * variety, 0, 0, [&](int) { return paintPackage(r); });
     spines_ = stock(scene, 2, 0, 0, [&](int) { return paintBookSpines(24, r); });
     doors_ = stock(scene, 2, 0, 0, [&](int i) { return paintDoor(woods[i], r); });
     windows_ = stock(scene, 2, 0, 0.9, [&](int) { return paintWindow(r); });

@@ -41,6 +41,7 @@ void addBox(const Scene& scene, std::vector<Quad>& quads, const SE3& frame, cons
             const BoxSkin& skin) {
     const auto face = [&](const Vector3d& origin, const Vector3d& right, const Vector3d& up,
                           double width, double height, const Skin& face_skin) {
+        if (face_skin.material == kHidden.material) return;
         Eigen::Matrix3d axes;
         axes << right.cross(up), right, up;
         addRectangle(scene, quads, frame * SE3(axes, origin), width, height, face_skin);

@@ -39,7 +39,7 @@ void dropShadows(const cv::Mat& truth, double disparity_m_px, cv::Mat& readings)
         double nearest = 1e9;
         for (int u = truth.cols - 1; u >= 0; --u) {
             if (z[u] <= 0) continue;
-            const double lit_from = u + disparity_m_px / z[u];
+            const double lit_from = u - disparity_m_px / z[u];
             if (lit_from > nearest + 1) out[u] = 0;
             nearest = std::min(nearest, lit_from);
         }

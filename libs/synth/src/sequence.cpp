@@ -30,12 +30,13 @@ void writePicture(const std::string& path, const cv::Mat& picture) {
 /** Films one session frame by frame: renders here, spoils and writes in the background. */
 class Film {
   public:
-    Film(const World& world, const FilmOptions& options, const std::string& folder)
+    Film(const World& world, const Scene& scene, const FilmOptions& options,
+         const std::string& folder)
         : world_(world),
           options_(options),
           folder_(folder),
           camera_(synthCamera(options.width, options.height)),
-          renderer_(world.scene, camera_) {}
+          renderer_(scene, camera_) {}
 
     void shoot(int frame) {
         shootColor(frame, colorStamp(options_, frame));
@@ -174,12 +175,13 @@ FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std
     makeWritableFolder(folder + "/rgb");
     makeWritableFolder(folder + "/depth");
     const World world = scenario.build(options.session, options.seed);
-    writeSurface(folder + "/surface.ply", world.scene);
+    const Scene scene = world.scene();
+    writeSurface(folder + "/surface.ply", scene);
     const Camera camera = synthCamera(options.width, options.height);
     writeCameraIni(folder, camera, static_cast<bool>(world.motion.T_world_base));
     writeMotionFiles(folder, options, world.motion, frames);
 
-    Film shooting(world, options, folder);
+    Film shooting(world, scene, options, folder);
     Progress progress("filming " + scenario.name, frames);
     for (int frame = 0; frame < frames; ++frame) {
         shooting.shoot(frame);

@@ -16,10 +16,12 @@ cv::Mat valueNoise(cv::Size size, cv::Size cells, Random& random) {
     cv::copyMakeBorder(grid, grid, margin, margin, margin, margin, cv::BORDER_WRAP);
     const double scale_x = static_cast<double>(size.width) / cells.width;
     const double scale_y = static_cast<double>(size.height) / cells.height;
-    cv::Mat affine = (cv::Mat_<double>(2, 3) << 1 / scale_x, 0, margin, 0, 1 / scale_y, margin);
+    const cv::Mat affine =
+        (cv::Mat_<double>(2, 3) << 1 / scale_x, 0, margin, 0, 1 / scale_y, margin);
+    // Smooth interpolation shows where cells are large only.
+    const int how = scale_x > 12 ? cv::INTER_CUBIC : cv::INTER_LINEAR;
     cv::Mat noise;
-    cv::warpAffine(grid, noise, affine, size, cv::INTER_CUBIC | cv::WARP_INVERSE_MAP,
-                   cv::BORDER_REPLICATE);
+    cv::warpAffine(grid, noise, affine, size, how | cv::WARP_INVERSE_MAP, cv::BORDER_REPLICATE);
     return noise;
 }
 
@@ -75,6 +77,8 @@ Bgr scaled(const Bgr& color, double factor) {
 Bgr vividColor(Random& random) {
     Bgr color(random.uniform(10, 90), random.uniform(40, 160), random.uniform(150, 240));
     for (int i = 2; i > 0; --i) std::swap(color[i], color[random.below(i + 1)]);
+    const double grey = (color[0] + color[1] + color[2]) / 3, fading = random.uniform(0.15, 0.6);
+    for (int i = 0; i < 3; ++i) color[i] += fading * (grey - color[i]);
     return random.chance(0.2) ? scaled(color, 0.35) : color;
 }
 
@@ -89,19 +93,24 @@ cv::Mat fractalNoise(cv::Size size, cv::Size cells, int octaves, double persiste
     cv::Mat sum = cv::Mat::zeros(size, CV_32FC1);
     double strength = 1, total = 0;
     for (int i = 0; i < octaves; ++i, strength *= persistence) {
-        sum += strength * valueNoise(size, cells, random);
+        cv::scaleAdd(valueNoise(size, cells, random), strength, sum, sum);
         total += strength;
         cells = cv::Size(std::min(size.width, cells.width * 2),
                          std::min(size.height, cells.height * 2));
     }
-    return sum / total;
+    sum.convertTo(sum, -1, 1 / total);
+    return sum;
 }
 
 void addRelief(cv::Mat& picture, const cv::Mat& field, double strength) {
-    cv::Mat grey, three;
-    field.convertTo(grey, CV_32FC1, strength);
-    cv::merge(std::vector<cv::Mat>{grey, grey, grey}, three);
-    cv::add(picture, three, picture, cv::noArray(), CV_8UC3);
+    for (int y = 0; y < picture.rows; ++y) {
+        const float* relief = field.ptr<float>(y);
+        auto* row = picture.ptr<cv::Vec3b>(y);
+        for (int x = 0; x < picture.cols; ++x)
+            for (int c = 0; c < 3; ++c)
+                row[x][c] =
+                    cv::saturate_cast<uchar>(row[x][c] + static_cast<float>(strength) * relief[x]);
+    }
 }
 
 void writeText(cv::Mat& picture, const cv::Rect& box, int line_px, const Bgr& ink, Random& random) {

@@ -14,7 +14,7 @@ void drawPiece(cv::Mat& picture, const cv::Rect& box, const Bgr& color, double g
                cv::Size cells, Random& random) {
     cv::Mat part = picture(box & cv::Rect(cv::Point(), picture.size()));
     part.setTo(color);
-    addRelief(part, fractalNoise(part.size(), cells, 5, 0.75, random), grain);
+    addRelief(part, fractalNoise(part.size(), cells, 4, 0.8, random), grain);
 }
 }  // namespace
 

@@ -24,8 +24,10 @@ struct Floor {
  *  otherwise, and furniture looks along their +x, with its back at x = 0 or its middle there. */
 class Furnisher {
   public:
-    /** Every picture is painted from the seed. */
-    Furnisher(Scene& scene, std::uint64_t seed);
+    /** Every picture is painted from the seed.
+     *  \param variety multiplies the number of different prints; a large place needs more, lest its
+     *         rooms look alike */
+    Furnisher(Scene& scene, std::uint64_t seed, int variety = 1);
 
     // The building.
     enum class Covering { Parquet, Carpet, Tiles };
@@ -72,10 +74,9 @@ class Furnisher {
     /** Small things scattered over a rectangle centred on the frame. */
     void clutter(const SE3& frame, double length, double width, int count);
 
-    /** A person's trunk with head, and one limb, standing at the origin of their frames; the limb
-     *  hangs down from its joint. \return index of the figure */
-    int personTrunk();
-    int personLimb(double length, double thickness, bool leg);
+    /** Appends the figures of a person: the trunk with its head, standing at its origin, and two
+     *  legs and two arms, hanging down from theirs. */
+    void person();
 
   private:
     void box(const SE3& frame, const Eigen::Vector3d& size, const BoxSkin& skin);
@@ -84,13 +85,15 @@ class Furnisher {
     void panel(const SE3& frame, double width, double height, double depth, const Skin& front);
     void bookRow(const SE3& frame, double width, double headroom);
     void packageRow(const SE3& frame, double width, double headroom);
+    Figure trunk(const Skin& shirt);
+    Figure limb(double length, double thickness, const Skin& cloth, bool with_shoe);
     Skin anyOf(const std::vector<int>& materials);
     Skin spine();
 
     Scene& scene_;
     Random random_;
     std::vector<int> plaster_, woods_, fabrics_, posters_, arts_, papers_, screens_, boxes_,
-        packages_, metals_, spines_, doors_, windows_, rugs_, floors_;
+        packages_, clothes_, metals_, spines_, doors_, windows_, rugs_, floors_;
     int bricks_, ceiling_, lamp_, keyboard_, leaves_, whiteboard_, clock_, white_, black_, face_;
 };
 

@@ -18,10 +18,11 @@ struct Exposure {
 
 /** One session of a scenario, ready to be filmed. */
 struct World {
-    Scene scene;
+    /** Builds the scene, which takes a second or two; motions are known without it. */
+    std::function<Scene()> scene;
     Motion motion;
     std::function<Exposure(double t)> exposure;
-    /** Pose of each of scene.figures at a time. */
+    /** Pose of each of the scene's figures at a time. */
     std::vector<std::function<SE3(double)>> figure_poses;
     /** Times [from, to) at which the camera is covered. */
     std::vector<std::pair<double, double>> covered;

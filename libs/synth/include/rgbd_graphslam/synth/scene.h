@@ -36,6 +36,9 @@ struct Skin {
     Eigen::Vector2d uv_min{0, 0}, uv_max{1, 1};
 };
 
+/** The skin of a face that nobody can see, which is left out. */
+const Skin kHidden{-1};
+
 /** Skins of a box whose front looks along +x of its own frame. */
 struct BoxSkin {
     Skin front, back, sides, top, bottom;

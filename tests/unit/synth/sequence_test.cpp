@@ -1,0 +1,150 @@
+#include "rgbd_graphslam/synth/sequence.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <opencv2/imgcodecs.hpp>
+#include <sstream>
+
+#include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/geometry/trajectory.h"
+
+namespace rgbd_graphslam::synth {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::map<std::string, std::string> filesBelow(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file()) continue;
+        std::ifstream in(entry.path(), std::ios::binary);
+        std::ostringstream bytes;
+        bytes << in.rdbuf();
+        files[fs::relative(entry.path(), folder).string()] = bytes.str();
+    }
+    return files;
+}
+
+class Sequence : public testing::Test {
+  protected:
+    void SetUp() override {
+        setVerbosity(Verbosity::Quiet);
+        root_ = fs::path(RGBD_BINARY_DIR) / "synth_test" /
+                testing::UnitTest::GetInstance()->current_test_info()->name();
+        fs::remove_all(root_);
+        fs::create_directories(root_);
+        options_.frames = 3;
+        options_.width = 160;
+        options_.height = 120;
+    }
+    void TearDown() override { fs::remove_all(root_); }
+    std::string filmed(const std::string& scenario, const std::string& name) {
+        const std::string folder = (root_ / name).string();
+        film(findScenario(scenario), options_, folder);
+        return folder;
+    }
+
+    fs::path root_;
+    FilmOptions options_;
+};
+
+TEST_F(Sequence, HasAllTheFilesOfTheBenchmark) {
+    const auto files = filesBelow(filmed("long-run", "robot"));
+    for (const char* name : {"rgb.txt", "depth.txt", "groundtruth.txt", "accelerometer.txt",
+                             "gyroscope.txt", "odometry.txt", "camera.ini", "surface.ply"})
+        EXPECT_EQ(files.count(name), 1u) << name;
+    EXPECT_EQ(files.size(), 8u + 6u);
+}
+
+TEST_F(Sequence, SameSeedSameBytesOtherSeedOtherBytes) {
+    const auto first = filesBelow(filmed("office", "a"));
+    const auto again = filesBelow(filmed("office", "b"));
+    EXPECT_EQ(first, again);
+    options_.seed = 2;
+    const auto other = filesBelow(filmed("office", "c"));
+    EXPECT_NE(first.at("groundtruth.txt"), other.at("groundtruth.txt"));
+    EXPECT_NE(first.at("rgb.txt"), other.at("rgb.txt"));
+}
+
+TEST_F(Sequence, WithoutNoiseDepthIsTheTruthAndStampsAgree) {
+    options_.noise = false;
+    const std::string folder = filmed("no-structure", "exact");
+    EXPECT_EQ(colorStamp(options_, 2), depthStamp(options_, 2));
+    const Trajectory truth = readTumTrajectory(folder + "/groundtruth.txt");
+    const StampedPose* pose = nullptr;
+    for (const StampedPose& candidate : truth)
+        if (std::abs(candidate.stamp_s - colorStamp(options_, 0)) < 1e-6) pose = &candidate;
+    ASSERT_NE(pose, nullptr);
+    const cv::Mat depth = cv::imread(folder + "/depth/1000.000000.png", cv::IMREAD_UNCHANGED);
+    ASSERT_EQ(depth.type(), CV_16UC1);
+    const Camera camera = synthCamera(160, 120);
+    double worst = 0;
+    for (int v = 0; v < 120; ++v)
+        for (int u = 0; u < 160; ++u) {
+            const Eigen::Vector3d point =
+                pose->T_world_cam * camera.unproject(u, v, depth.at<std::uint16_t>(v, u) / 5000.0);
+            worst = std::max(worst, std::abs(point.x()));  // the wall is the plane x = 0
+        }
+    EXPECT_LT(worst, 1e-3);
+}
+
+TEST_F(Sequence, StampsOfDepthAreUpToSixteenMillisecondsOff) {
+    double largest = 0;
+    for (int i = 0; i < 300; ++i)
+        largest = std::max(largest, std::abs(depthStamp(options_, i) - colorStamp(options_, i)));
+    EXPECT_GT(largest, 0.012);
+    EXPECT_LE(largest, 0.016);
+}
+
+TEST_F(Sequence, TruthCoversAllFramesAtAHundredHertz) {
+    const Trajectory truth = readTumTrajectory(filmed("office", "truth") + "/groundtruth.txt");
+    EXPECT_LT(truth.front().stamp_s, depthStamp(options_, 0));
+    EXPECT_GT(truth.back().stamp_s, colorStamp(options_, 2));
+    for (std::size_t i = 1; i < truth.size(); ++i)
+        ASSERT_NEAR(truth[i].stamp_s - truth[i - 1].stamp_s, 0.01, 2e-6);
+}
+
+TEST_F(Sequence, RegistrationErrorShiftsDepth) {
+    options_.noise = false;
+    const std::string exact = filmed("office", "exact");
+    options_.registration_error_px = 3;
+    const std::string shifted = filmed("office", "shifted");
+    const std::string name = "/depth/1000.000000.png";
+    const cv::Mat a = cv::imread(exact + name, cv::IMREAD_UNCHANGED),
+                  b = cv::imread(shifted + name, cv::IMREAD_UNCHANGED);
+    const cv::Mat overlap_a = a.colRange(0, 157), overlap_b = b.colRange(3, 160);
+    cv::Mat difference;
+    cv::absdiff(overlap_a, overlap_b, difference);
+    EXPECT_LT(cv::countNonZero(difference > 5), 0.01 * difference.total());
+}
+
+TEST_F(Sequence, SurfaceHoldsWhatIsSeen) {
+    const std::string ply = filesBelow(filmed("low-texture", "surface")).at("surface.ply");
+    EXPECT_EQ(ply.rfind("ply\nformat binary_little_endian 1.0\n", 0), 0u);
+    int vertices = 0, faces = 0;
+    std::istringstream header(ply);
+    for (std::string line; std::getline(header, line) && line != "end_header";) {
+        std::sscanf(line.c_str(), "element vertex %d", &vertices);
+        std::sscanf(line.c_str(), "element face %d", &faces);
+    }
+    EXPECT_GT(faces, 100);
+    const std::size_t body = ply.find("end_header\n") + 11;
+    EXPECT_EQ(ply.size(), body + 12u * vertices + 13u * faces);
+}
+
+TEST_F(Sequence, AFolderThatIsNotEmptyIsAnError) {
+    const std::string folder = filmed("office", "full");
+    EXPECT_THROW(film(findScenario("office"), options_, folder), Error);
+}
+
+TEST_F(Sequence, ASessionThatIsNotThereIsAnError) {
+    options_.session = 2;
+    EXPECT_THROW(filmed("office", "x"), Error);
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam::synth
