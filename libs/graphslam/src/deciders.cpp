@@ -1,9 +1,6 @@
 #include "rgbd_graphslam/graphslam/deciders.h"
 
-#include <mrpt/config/CConfigFile.h>
 #include <mrpt/obs/obs_utils.h>
-
-#include <vector>
 
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 
@@ -27,21 +24,6 @@ void track(SharedSlam& shared, const CObservation3DRangeScan::Ptr& frame) {
     shared.new_keyframe = shared.last.keyframe;
 }
 
-/** Those keys of an ini file that are ours. */
-IniFile ownSections(const std::string& path, const std::vector<Options*>& structs) {
-    const mrpt::config::CConfigFile file(path);
-    IniFile own = IniFile::fromText("", path);
-    for (const Options* options : structs) {
-        std::vector<std::string> keys;
-        file.getAllKeys(options->section(), keys);
-        for (const std::string& key : keys) {
-            own.override(std::string(options->section()) + "." + key + "=" +
-                         file.read_string(options->section(), key, ""));
-        }
-    }
-    return own;
-}
-
 }  // namespace
 
 COrbKeyframeNRD::COrbKeyframeNRD() {
@@ -49,8 +31,7 @@ COrbKeyframeNRD::COrbKeyframeNRD() {
 }
 
 void COrbKeyframeNRD::loadParams(const std::string& ini) {
-    const auto structs = m_graph->shared->options.all();
-    ownSections(ini, structs).load(structs);
+    IniFile::fromFile(ini).loadKnown(m_graph->shared->options.all());
 }
 
 bool COrbKeyframeNRD::updateState(mrpt::obs::CActionCollection::Ptr,

@@ -40,12 +40,22 @@ std::optional<Eigen::Vector3d> specificForce(const mrpt::obs::CObservationIMU& i
     return Eigen::Vector3d(imu.get(IMU_X_ACC), imu.get(IMU_Y_ACC), imu.get(IMU_Z_ACC));
 }
 
+/** Nothing at the end, and where the rawlog is cut off: what comes before serves. */
+mrpt::obs::CObservation::Ptr nextUndamaged(RawlogReader& reader) {
+    try {
+        return reader.next();
+    } catch (const Error& e) {
+        sayDetail(e.what());
+        return nullptr;
+    }
+}
+
 /** All accelerometer readings of a rawlog, in the axes of its camera. */
 std::vector<SpecificForce> readAccelerometer(const std::string& rawlog) {
     std::vector<SpecificForce> readings;
     std::optional<SE3> T_base_cam;
     RawlogReader reader(rawlog);
-    while (const auto observation = reader.next()) {
+    while (const auto observation = nextUndamaged(reader)) {
         const auto frame =
             std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation);
         if (frame && !T_base_cam) T_base_cam = cameraOnRobot(*frame);

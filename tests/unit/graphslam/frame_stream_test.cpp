@@ -1,0 +1,125 @@
+#include "rgbd_graphslam/graphslam/frame_stream.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationIMU.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "../../support/textured_room.h"
+#include "../../support/tum_folder.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/rawlog_writer.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr int frames = 12;
+
+RunOptions withThreads(int threads) {
+    RunOptions options;
+    options.threads = threads;
+    options.frames_ahead = 3;
+    return options;
+}
+
+class StreamOfARawlog : public testing::TestWithParam<int> {
+  protected:
+    StreamOfARawlog() : rawlog_(folder_ / "a.rawlog") {
+        write([](RawlogWriter& writer) {
+            for (const auto& frame : filmRoundTrip(frames, 0.02)) {
+                writer.write(*frame);
+                mrpt::obs::CObservationIMU imu;
+                writer.write(imu);
+            }
+        });
+    }
+    void write(const std::function<void(RawlogWriter&)>& fill) const {
+        writeRawlog(rawlog_, RawlogStorage::Embedded, fill);
+    }
+    /** Later frames are ready sooner. */
+    static Frame slowAtFirst(const RgbdImage& image) {
+        const double age_s = image.stamp_s - room_start_s;
+        std::this_thread::sleep_for(std::chrono::duration<double>(0.01 / (1 + 30 * age_s)));
+        Frame frame;
+        frame.stamp_s = image.stamp_s;
+        return frame;
+    }
+
+    TestFolder folder_;
+    std::string rawlog_;
+};
+
+TEST_P(StreamOfARawlog, keepsTheOrderOfTheFile) {
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    for (int i = 0; i < frames; ++i) {
+        const auto frame = stream.next();
+        ASSERT_TRUE(frame);
+        EXPECT_EQ(frame->index, static_cast<std::size_t>(i));
+        EXPECT_NEAR(frame->prepared.stamp_s, room_start_s + i * room_period_s, 1e-5);
+    }
+    EXPECT_FALSE(stream.next());
+    EXPECT_EQ(stream.expectedFrames(), static_cast<std::size_t>(frames));
+}
+
+TEST_P(StreamOfARawlog, readsNoFurtherAheadThanTold) {
+    std::atomic<int> prepared{0};
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start([&](const RgbdImage& image) {
+        ++prepared;
+        return slowAtFirst(image);
+    });
+    stream.next();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_LE(prepared, 1 + 3);  // fetched and frames_ahead
+}
+
+TEST_P(StreamOfARawlog, canBeLeftInTheMiddle) {
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    EXPECT_TRUE(stream.next());
+}
+
+TEST_P(StreamOfARawlog, handsOutWhatComesBeforeTheCut) {
+    cutFile(rawlog_, 0.6);
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    int handed_out = 0;
+    const auto drain = [&] {
+        while (stream.next()) ++handed_out;
+    };
+    EXPECT_THROW(drain(), Error);
+    EXPECT_EQ(handed_out, 7);
+}
+
+TEST_P(StreamOfARawlog, frameWithoutDepthIsNamed) {
+    write([](RawlogWriter& writer) {
+        auto film = filmRoundTrip(3, 0.02);
+        film[1]->hasRangeImage = false;
+        for (const auto& frame : film) writer.write(*frame);
+    });
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    EXPECT_TRUE(stream.next());
+    try {
+        stream.next();
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("1700000000.033333"), std::string::npos) << e.what();
+    }
+}
+
+TEST_P(StreamOfARawlog, rawlogWithoutFramesIsRefused) {
+    write([](RawlogWriter& writer) {
+        mrpt::obs::CObservationIMU imu;
+        writer.write(imu);
+    });
+    EXPECT_THROW(FrameStream(rawlog_, withThreads(GetParam())), Error);
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, StreamOfARawlog, testing::Values(1, 2, 5));
+
+}  // namespace
+}  // namespace rgbd_graphslam
