@@ -100,16 +100,21 @@ Eigen::Vector3d meanCameraTop(const Trajectory& poses) {
     return sum.normalized();
 }
 
+/** A Kinect's accelerometer is some 4 degrees off (TUM fr1/xyz against its ground truth), a floor
+ *  well below one: so gravity says which surfaces are level, and these say what level is. */
 Eigen::Vector3d findUp(const MapInputs& inputs, const MapOptions& options,
                        const std::vector<SurfacePatch>& patches) {
+    constexpr double accelerometer_error = 8 * M_PI / 180, camera_error = M_PI / 4;
     const Trajectory& poses = inputs.trajectory.empty() ? inputs.keyframes : inputs.trajectory;
     if (options.upright == "gravity") {
-        if (const auto up = upFromAccelerometer(readAccelerometer(inputs.rawlog), poses))
-            return *up;
+        if (const auto up = upFromAccelerometer(readAccelerometer(inputs.rawlog), poses)) {
+            return upFromFloor(patches, *up, accelerometer_error).value_or(*up);
+        }
         sayInfo("no usable accelerometer in the rawlog: up is taken from the floor");
     }
     if (options.upright != "none") {
-        if (const auto up = upFromFloor(patches, meanCameraTop(inputs.keyframes))) return *up;
+        const auto up = upFromFloor(patches, meanCameraTop(inputs.keyframes), camera_error);
+        if (up) return *up;
     }
     sayWarning("up is taken from the first camera, as if it had been level");
     return -inputs.keyframes.front().T_world_cam.R.col(1);

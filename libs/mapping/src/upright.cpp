@@ -127,11 +127,13 @@ std::vector<SurfacePatch> surfacePatches(const SE3& T_world_cam, const DepthView
 }
 
 std::optional<Eigen::Vector3d> upFromFloor(const std::vector<SurfacePatch>& patches,
-                                           const Eigen::Vector3d& guess) {
-    const auto candidates = within(patches, guess, degrees(45));
+                                           const Eigen::Vector3d& guess, double cone) {
+    const auto candidates = within(patches, guess, cone);
     if (candidates.size() < fewest_patches) return std::nullopt;
     Eigen::Vector3d up = densest(candidates);
-    for (const double cone : {10., 6., 4., 4.}) up = meanNormal(within(patches, up, degrees(cone)));
+    for (const double narrow : {10., 6., 4., 4.}) {
+        up = meanNormal(within(patches, up, degrees(narrow)));
+    }
     const auto level = static_cast<double>(within(patches, up, degrees(4)).size());
     if (level < least_level_share * static_cast<double>(patches.size())) return std::nullopt;
     return up;

@@ -69,7 +69,7 @@ TEST(Upright, floorGivesUpAndItsHeight) {
     const auto patches = patchesOf(trajectory);
     Eigen::Vector3d guess = Eigen::Vector3d::Zero();
     for (const auto& pose : trajectory) guess -= pose.T_world_cam.R.col(1);
-    const auto up = upFromFloor(patches, guess.normalized());
+    const auto up = upFromFloor(patches, guess.normalized(), M_PI / 4);
     ASSERT_TRUE(up);
     EXPECT_LT(degreesBetween(*up, T_odd_up.R.col(2)), 0.3);
     const auto floor = floorHeight(patches, *up);
@@ -84,7 +84,7 @@ TEST(Upright, floorGivesUpAndItsHeight) {
 }
 
 TEST(Upright, nothingLevelInSightIsSaid) {
-    EXPECT_FALSE(upFromFloor({}, Eigen::Vector3d::UnitZ()));
+    EXPECT_FALSE(upFromFloor({}, Eigen::Vector3d::UnitZ(), M_PI / 4));
     EXPECT_FALSE(floorHeight({{Eigen::Vector3d(1, 1, 1), Eigen::Vector3d::UnitX()}},
                              Eigen::Vector3d::UnitZ()));
 }

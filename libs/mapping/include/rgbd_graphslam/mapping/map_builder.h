@@ -25,9 +25,10 @@ struct MapInputs {
 };
 
 /** T_up_world: z up, floor at z = 0, first camera above the origin and looking along +x. Up is
- * where the accelerometer says (specific force, averaged over the whole run in world axes), else
- * the normal of the floor, else the first camera's, with a warning; see MapOptions::upright.
- *  \throws Error when the rawlog cannot be read or holds none of the keyframes */
+ * where the accelerometer says (specific force, averaged over the whole run in world axes), made
+ * precise by the level surfaces in sight; else the normal of the floor; else the first camera's,
+ * with a warning; see MapOptions::upright. \throws Error when the rawlog cannot be read or holds
+ * none of the keyframes */
 SE3 uprightFromWorld(const MapInputs& inputs, const MapOptions& options);
 
 /** All poses of the inputs in the frame a of T_a_world. */

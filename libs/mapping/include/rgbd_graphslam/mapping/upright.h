@@ -32,10 +32,10 @@ std::optional<Eigen::Vector3d> upFromAccelerometer(const std::vector<SpecificFor
 std::vector<SurfacePatch> surfacePatches(const SE3& T_world_cam, const DepthView& view);
 
 /** The direction that most patches near the guess agree on: floor, tables, seats.
- *  \param guess unit vector, right to about 45 degrees
- *  \return nothing when too few patches look up */
+ *  \param guess unit vector, \param cone how far it may be wrong, rad
+ *  \return nothing when too few patches look that way */
 std::optional<Eigen::Vector3d> upFromFloor(const std::vector<SurfacePatch>& patches,
-                                           const Eigen::Vector3d& guess);
+                                           const Eigen::Vector3d& guess, double cone);
 
 /** Height along `up` of the lowest level surface of some size.
  *  \return nothing when no patch is level */
