@@ -13,8 +13,8 @@ void FeatureOptions::describe(OptionVisitor& v) {
     v.integer("cell_px", cell_px, 8, 200, "px", "Cell over which keypoints are spread evenly");
     v.real("depth_min_m", depth_min_m, 0, 10, "m", "Nearest depth that is believed");
     v.real("depth_max_m", depth_max_m, 0.5, 100, "m", "Farthest depth that is believed");
-    v.real("depth_edge_ratio", depth_edge_ratio, 0.001, 1, "",
-           "Relative step in depth around a keypoint that counts as an edge");
+    v.real("depth_edge_step", depth_edge_step, 0.001, 1, "1/m",
+           "Step around a keypoint that counts as an edge: depth step / depth^2, as noise grows");
 }
 
 }  // namespace rgbd_graphslam

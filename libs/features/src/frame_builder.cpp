@@ -39,7 +39,7 @@ float foregroundDepth(const cv::Mat& depth, double depth_unit_m, float u, float 
             if (row[i] && row[i] < nearest) nearest = row[i];
         }
     }
-    const double farthest = nearest * (1 + options.depth_edge_ratio);
+    const double farthest = nearest * (1 + options.depth_edge_step * nearest * depth_unit_m);
     int readings = 0, sum = 0;
     for (int j = y0; j <= y1; ++j) {
         const auto* row = depth.ptr<std::uint16_t>(j);

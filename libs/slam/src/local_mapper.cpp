@@ -5,11 +5,13 @@
 #include "rgbd_graphslam/slam/global_adjustment.h"
 #include "rgbd_graphslam/slam/matcher.h"
 #include "rgbd_graphslam/slam/thread_clock.h"
+#include "rgbd_graphslam/slam/triangulation.h"
 
 namespace rgbd_graphslam {
 namespace {
 
 constexpr int neighbours_joined = 8;
+constexpr int neighbours_triangulated = 6;
 constexpr double join_window_px = 3;
 constexpr int join_hamming = 50;
 constexpr int probation_keyframes = 3;
@@ -36,6 +38,7 @@ LocalMapper::~LocalMapper() {
 
 void LocalMapper::insert(int keyframe) {
     createFromDepth(keyframe);
+    if (options_.mapper.triangulate) triangulateWithNeighbours(keyframe);
     joinWithNeighbours(keyframe);
     cullLandmarks(keyframe);
     cullKeyframes(keyframe);
@@ -67,6 +70,18 @@ void LocalMapper::createFromDepth(int id) {
         if (map_.keyframe(id).landmarks[i] != no_landmark || k.depth_m <= 0) continue;
         const Eigen::Vector3d position = T_world_cam * camera_.unproject(k.u, k.v, k.depth_m);
         recent_.push_back(map_.addLandmark(position, id, static_cast<int>(i)));
+    }
+}
+
+void LocalMapper::triangulateWithNeighbours(int id) {
+    auto neighbours = map_.covisible(id);
+    if (neighbours.size() > neighbours_triangulated) neighbours.resize(neighbours_triangulated);
+    for (const Covisibility& c : neighbours) {
+        for (const TriangulatedPoint& point :
+             triangulateBetween(camera_, map_, options_, id, c.keyframe)) {
+            recent_.push_back(map_.addLandmark(point.position, id, point.keypoint_a));
+            map_.addObservation(recent_.back(), c.keyframe, point.keypoint_b);
+        }
     }
 }
 
@@ -243,8 +258,8 @@ void LocalMapper::apply(const Job& job) {
     }
 }
 
-/** Landmarks that one keyframe alone has seen took no part in the adjustment; left behind, they would
- *  pull the next frames back to where their keyframe was. */
+/** Landmarks that one keyframe alone has seen took no part in the adjustment; left behind, they
+ * would pull the next frames back to where their keyframe was. */
 void LocalMapper::moveUnadjusted(int keyframe, const SE3& new_T_cam_world,
                                  const std::vector<int>& adjusted) {
     const SE3 motion = new_T_cam_world.inverse() * map_.keyframe(keyframe).T_cam_world;

@@ -49,6 +49,7 @@ void MapperOptions::describe(OptionVisitor& v) {
         "hand_over_frames", hand_over_frames, 1, 100, "frames",
         "After a keyframe, when the adjusted map reaches the tracker (fixed, so that the result "
         "does not depend on timing)");
+    v.flag("triangulate", triangulate, "Landmarks from two views where no depth was read");
     v.flag("local_adjustment", local_adjustment, "Bundle adjustment around each new keyframe");
     v.flag("final_adjustment", final_adjustment, "Bundle adjustment of everything at the end");
 }

@@ -13,7 +13,7 @@ struct FeatureOptions : Options {
     int cell_px = 32;
     double depth_min_m = 0.2;
     double depth_max_m = 10.0;
-    double depth_edge_ratio = 0.04;
+    double depth_edge_step = 0.03;
 
     const char* section() const override { return "FeatureOptions"; }
     const char* about() const override { return "Keypoints, descriptors and their depth"; }

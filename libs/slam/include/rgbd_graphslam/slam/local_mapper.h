@@ -38,6 +38,7 @@ class LocalMapper {
   private:
     struct Job;
     void createFromDepth(int keyframe);
+    void triangulateWithNeighbours(int keyframe);
     void joinWithNeighbours(int keyframe);
     void join(int landmark, int keyframe, int keypoint);
     void cullLandmarks(int keyframe);

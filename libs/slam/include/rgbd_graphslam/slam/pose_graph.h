@@ -28,7 +28,7 @@ struct PoseGraph {
 
 struct PoseGraphOptions : Options {
     int max_iterations = 50;
-    double loop_kernel_sigmas = 3.0;
+    double loop_kernel_sigmas = 5.0;
     const char* section() const override { return "PoseGraphOptions"; }
     const char* about() const override { return "Optimisation of the keyframe graph after a loop"; }
     void describe(OptionVisitor& v) override;

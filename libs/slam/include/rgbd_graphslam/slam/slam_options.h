@@ -54,6 +54,7 @@ struct MapperOptions : Options {
     int max_fixed_keyframes = 10;
     int iterations = 6;
     int hand_over_frames = 3;
+    bool triangulate = true;
     bool local_adjustment = true;
     bool final_adjustment = true;
 
