@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 struct Arguments {
     std::string source, rawlog, camera;
     double depth_units = 0, depth_scale = 0;
-    bool compact = false, quiet = false, verbose = false;
+    bool compact = false, small = false, quiet = false, verbose = false;
     ImportOptions import;
 };
 
@@ -43,6 +43,9 @@ void declare(CLI::App& app, Arguments& args) {
         ->capture_default_str();
     app.add_flag("--compact", args.compact,
                  "Keep images lossless in files beside the rawlog: smaller, slower to read");
+    app.add_flag("--small", args.small,
+                 "One compressed file, colour as JPEG: smallest, slow to write, colour not exact")
+        ->excludes("--compact");
     app.add_flag("--strict", args.import.strict, "A listed file that is missing is an error");
     app.add_flag("--skip-damaged", args.import.skip_damaged,
                  "Leave frames with a damaged image out instead of stopping");
@@ -96,6 +99,7 @@ int main(int argc, char** argv) {
     declare(app, args);
     CLI11_PARSE(app, argc, argv);
     if (args.compact) args.import.storage = RawlogStorage::Compact;
+    if (args.small) args.import.storage = RawlogStorage::Small;
     if (args.quiet) setVerbosity(Verbosity::Quiet);
     if (args.verbose) setVerbosity(Verbosity::Verbose);
     return runMain("tum2rawlog", [&] { return run(args); });

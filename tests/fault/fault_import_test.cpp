@@ -233,13 +233,16 @@ TEST_F(FaultImport, unwritableOutput) {
 
 TEST_F(FaultImport, fullDisk) {
     // The shell's file size limit stands for a full disk; SIGXFSZ ignored turns it into an error.
-    const std::string program = "'" RGBD_BINARY_DIR "/bin/tum2rawlog' '" + folder_ / "s" + "' '" +
-                                rawlog() + "' -q 2>'" + folder_ / "err" + "'";
-    const int status =
-        std::system(("bash -c \"trap '' XFSZ; ulimit -f 8; " + program + "\" >/dev/null").c_str());
-    EXPECT_EQ(WEXITSTATUS(status), 1);
-    EXPECT_THAT(readText(folder_ / "err"), HasSubstr("cannot write"));
-    expectNothingWritten();
+    for (const std::string option : {"", " --small"}) {
+        const std::string program = "'" RGBD_BINARY_DIR "/bin/tum2rawlog' '" + folder_ / "s" +
+                                    "' '" + rawlog() + "' -q" + option + " 2>'" + folder_ / "err" +
+                                    "'";
+        const int status = std::system(
+            ("bash -c \"trap '' XFSZ; ulimit -f 8; " + program + "\" >/dev/null").c_str());
+        EXPECT_EQ(WEXITSTATUS(status), 1) << option;
+        EXPECT_THAT(readText(folder_ / "err"), HasSubstr("cannot write")) << option;
+        expectNothingWritten();
+    }
 }
 
 TEST_F(FaultImport, olderRawlogSurvivesAFailedImport) {

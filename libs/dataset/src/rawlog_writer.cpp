@@ -1,6 +1,7 @@
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
 
 #include <mrpt/img/CImage.h>
+#include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/io/CFileOutputStream.h>
 #include <mrpt/serialization/CArchive.h>
 #include <unistd.h>
@@ -22,12 +23,15 @@ namespace {
 /** The disk does not take it. */
 class WriteFailure : public std::exception {};
 
-class EmbeddedWriter : public RawlogWriter {
+constexpr int small_jpeg_quality = 90, small_gz_level = 9;
+
+/** All in one file. `Stream` is one of MRPT's for files. */
+template <class Stream>
+class StreamWriter : public RawlogWriter {
   public:
-    explicit EmbeddedWriter(const std::string& path) {
-        mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(
-            true);  // process-wide; its default loses pixels
-        if (!file_.open(path)) throw WriteFailure();
+    template <class... Level>
+    explicit StreamWriter(const std::string& path, Level... level) {
+        if (!file_.open(path, level...)) throw WriteFailure();
     }
 
     void write(mrpt::obs::CObservation& observation) override {
@@ -42,10 +46,26 @@ class EmbeddedWriter : public RawlogWriter {
         write(frame);
     }
 
+    /** Before compression. */
     std::uint64_t bytes() { return file_.getPosition(); }
 
   private:
-    mrpt::io::CFileOutputStream file_;
+    Stream file_;
+};
+
+class EmbeddedWriter : public StreamWriter<mrpt::io::CFileOutputStream> {
+  public:
+    explicit EmbeddedWriter(const std::string& path) : StreamWriter(path) {
+        mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(true);  // process-wide
+    }
+};
+
+class SmallWriter : public StreamWriter<mrpt::io::CFileGZOutputStream> {
+  public:
+    explicit SmallWriter(const std::string& path) : StreamWriter(path, small_gz_level) {
+        mrpt::img::CImage::DISABLE_JPEG_COMPRESSION(false);
+        mrpt::img::CImage::SERIALIZATION_JPEG_QUALITY(small_jpeg_quality);
+    }
 };
 
 class CompactWriter : public EmbeddedWriter {
@@ -110,6 +130,11 @@ class TemporaryFolder {
     fs::path final_, path_;
 };
 
+bool holds(const std::string& path, std::uint64_t bytes) {
+    const auto unpacked = gzSize(path);
+    return unpacked ? *unpacked == static_cast<std::uint32_t>(bytes) : fs::file_size(path) == bytes;
+}
+
 /** Streams notice a full disk only when they are closed, and MRPT's say nothing then.
  *  \return whether the file is whole */
 template <class Writer, class... Arguments>
@@ -123,7 +148,7 @@ bool fillFile(const std::string& path, const std::function<void(RawlogWriter&)>&
     } catch (const WriteFailure&) {
         return false;
     }
-    return fs::file_size(path) == bytes;
+    return holds(path, bytes);
 }
 
 }  // namespace
@@ -137,6 +162,7 @@ void writeRawlog(const std::string& path, RawlogStorage storage,
     }
     writeAtomically(path, [&](const std::string& temporary) {
         if (storage == RawlogStorage::Embedded) return fillFile<EmbeddedWriter>(temporary, fill);
+        if (storage == RawlogStorage::Small) return fillFile<SmallWriter>(temporary, fill);
         const TemporaryFolder images(RawlogReader::imagesFolder(fs::absolute(path).string()));
         if (!fillFile<CompactWriter>(temporary, fill, images.path())) return false;
         images.moveToFinalName();

@@ -9,6 +9,7 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <cstdlib>
+#include <filesystem>
 
 #include "../../support/tum_folder.h"
 #include "rgbd_graphslam/core/console.h"
@@ -107,6 +108,29 @@ TEST_P(RawlogStorageTest, exportGivesTheFolderBack) {
 
 INSTANTIATE_TEST_SUITE_P(Both, RawlogStorageTest,
                          ::testing::Values(RawlogStorage::Embedded, RawlogStorage::Compact));
+
+/** How far colours are off on average, grey levels. */
+double meanDifference(const cv::Mat& a, const cv::Mat& b) {
+    return cv::norm(a, b, cv::NORM_L1) / (3.0 * a.total());
+}
+
+TEST_F(RawlogTest, smallStorageLosesLittleColourAndNothingElse) {
+    const cv::Mat smooth(small_sequence::height, small_sequence::width, CV_8UC3, {40, 150, 90});
+    for (int i = 0; i < frame_count; ++i)
+        cv::imwrite(folder_ / ("s/" + small_sequence::colorFile(i)), smooth);
+    import();
+    const auto embedded_bytes = std::filesystem::file_size(rawlog());
+    import(RawlogStorage::Small);
+    EXPECT_LT(std::filesystem::file_size(rawlog()), 0.8 * embedded_bytes);
+    const auto frames = framesOf(rawlog());
+    ASSERT_EQ(frames.size(), frame_count);
+    for (int i = 0; i < frame_count; ++i) {
+        const RgbdImage image = toRgbdImage(frames[i]);
+        EXPECT_TRUE(samePixels(image.depth, small_sequence::depth(i))) << i;
+        EXPECT_LT(meanDifference(image.color, smooth), 3) << i;
+        EXPECT_NEAR(image.stamp_s, small_sequence::colorStamp(i), 0.5e-6);
+    }
+}
 
 TEST_F(RawlogTest, sharedPixelsOutliveTheObservation) {
     import();

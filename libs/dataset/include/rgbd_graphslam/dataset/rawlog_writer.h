@@ -13,7 +13,9 @@ enum class RawlogStorage {
     /** Everything in one file, pixels raw: the fastest to read and write. */
     Embedded,
     /** Colour as PNG or JPEG files, depth as MRPT's compressed files, in `<name>_Images`. */
-    Compact
+    Compact,
+    /** One gz file with colour as JPEG of quality 90, depth exact: for handing samples out. */
+    Small
 };
 
 /** Takes the entries of one rawlog in order. */
