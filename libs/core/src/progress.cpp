@@ -11,7 +11,7 @@ namespace rgbd_graphslam {
 namespace {
 
 constexpr int bar_width = 28;
-constexpr double redraw_period_s = 0.1;
+constexpr double redraw_period_s = 0.1, plain_period_s = 2;
 
 std::string formatted(const char* format, double value) {
     char text[32];
@@ -32,7 +32,7 @@ Progress::Progress(std::string label, std::size_t total, std::string unit)
       total_(total),
       terminal_(isatty(STDERR_FILENO) != 0),
       start_(Clock::now()),
-      last_drawn_(start_ - std::chrono::hours(1)) {
+      last_drawn_(start_) {
     next_plain_ = std::max<std::size_t>(1, total_ ? total_ / 10 : 500);
     finished_ = verbosity() == Verbosity::Quiet;
 }
@@ -62,16 +62,14 @@ std::string Progress::line(const std::string& note) const {
 void Progress::update(std::size_t done, const std::string& note) {
     done_ = done;
     if (finished_) return;
-    if (terminal_) {
-        const auto now = Clock::now();
-        if (std::chrono::duration<double>(now - last_drawn_).count() < redraw_period_s) return;
-        last_drawn_ = now;
-        std::fprintf(stderr, "\r%s\033[K", line(note).c_str());
-        std::fflush(stderr);
-    } else if (done_ >= next_plain_) {
-        next_plain_ += std::max<std::size_t>(1, total_ ? total_ / 10 : 500);
-        std::fprintf(stderr, "%s\n", line(note).c_str());
-    }
+    if (!terminal_ && done_ < next_plain_) return;
+    const auto now = Clock::now();
+    const double quiet_s = std::chrono::duration<double>(now - last_drawn_).count();
+    if (quiet_s < (terminal_ ? redraw_period_s : plain_period_s)) return;
+    last_drawn_ = now;
+    next_plain_ = done_ + std::max<std::size_t>(1, total_ ? total_ / 10 : 500);
+    std::fprintf(stderr, terminal_ ? "\r%s\033[K" : "%s\n", line(note).c_str());
+    std::fflush(stderr);
 }
 
 void Progress::finish() {
