@@ -11,11 +11,24 @@
 using namespace rgbd_graphslam;
 
 namespace {
+std::string inFigures(const synth::FilmSummary& film) {
+    char text[120];
+    std::snprintf(text, sizeof text, "%d frames, %.0f s, %.1f m, at most %.2f m/s and %.0f deg/s",
+                  film.frames, film.duration_s, film.path_m, film.max_speed,
+                  film.max_turn_rate * 180 / std::acos(-1.0));
+    return text;
+}
+
 void list() {
     for (const synth::Scenario& scenario : synth::scenarios())
-        std::printf("%-14s %5d frames%s  %s\n", scenario.name.c_str(), scenario.frames,
-                    scenario.sessions > 1 ? ", 2 sessions" : "            ",
-                    scenario.about.c_str());
+        for (int session = 1; session <= scenario.sessions; ++session) {
+            const std::string which =
+                scenario.sessions > 1 ? " --session " + std::to_string(session) : "";
+            const synth::World world = scenario.build(session, 1);
+            std::printf("%s%s\n    %s\n    %s\n", scenario.name.c_str(), which.c_str(),
+                        scenario.about.c_str(),
+                        inFigures(synth::summary(world, scenario.frames)).c_str());
+        }
 }
 
 void makeSheet(const std::vector<std::string>& picture_and_folders) {
@@ -32,11 +45,6 @@ void setSize(const std::string& text, synth::FilmOptions& options) {
         throw Error("--size " + text + " is no size from 64x48 to 4096x4096", "write e.g. 640x480");
 }
 
-void report(const synth::FilmSummary& film, const std::string& folder) {
-    std::printf("%s: %d frames, %.1f s, %.2f m, at most %.2f m/s and %.0f deg/s\n", folder.c_str(),
-                film.frames, film.duration_s, film.path_m, film.max_speed,
-                film.max_turn_rate * 180 / std::acos(-1.0));
-}
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -51,6 +59,8 @@ int main(int argc, char** argv) {
     app.add_option("out_dir", folder, "new folder for the sequence");
     app.add_flag("--list", list_only, "describe the scenarios");
     app.add_option("--frames", options.frames, "the first N frames (default: the whole scenario)")
+        ->check(CLI::PositiveNumber);
+    app.add_option("--every", options.every, "film only every Nth of them: a slower camera")
         ->check(CLI::PositiveNumber);
     app.add_option("--seed", options.seed, "of textures, trembling and noise")
         ->capture_default_str();
@@ -77,7 +87,8 @@ int main(int argc, char** argv) {
             throw Error("scenario or folder is missing", "see rgbd-synth --help");
         options.noise = noise == "kinect";
         setSize(size, options);
-        report(synth::film(synth::findScenario(scenario), options, folder), folder);
+        const synth::FilmSummary film = synth::film(synth::findScenario(scenario), options, folder);
+        std::printf("%s: %s\n", folder.c_str(), inFigures(film).c_str());
         return 0;
     });
 }

@@ -74,7 +74,7 @@ void writeContactSheet(const std::vector<std::string>& folders, const std::strin
     cv::Mat sheet;
     cv::vconcat(rows, sheet);
     writeAtomically(path, [&](const std::string& temporary) {
-        return cv::imwrite(temporary, sheet, {cv::IMWRITE_JPEG_QUALITY, 72});
+        return cv::imwrite(temporary, sheet, {cv::IMWRITE_JPEG_QUALITY, 66});
     });
 }
 

@@ -108,7 +108,7 @@ World corridorLoop(int, std::uint64_t seed) {
     // Starts in the corridor's middle, so that the end meets the beginning on a straight.
     const std::vector<Vector3d> corners{
         {6, 1.1, 0}, {21.8, 1.1, 0}, {21.8, 12.5, 0}, {2.2, 12.5, 0}, {2.2, 1.1, 0}};
-    const double spacing = 0.9;
+    const double spacing = 1.1;
     world.motion = planarRobot({evenlySpaced(corners, spacing, true), spacing / 0.66, true});
     return world;
 }

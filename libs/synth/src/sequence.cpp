@@ -27,6 +27,12 @@ void writePicture(const std::string& path, const cv::Mat& picture) {
         throw Error("cannot write " + path, "check free space and permissions");
 }
 
+bool isCovered(const World& world, double t) {
+    for (const auto& [from, to] : world.covered)
+        if (t >= from && t < to) return true;
+    return false;
+}
+
 /** Films one session frame by frame: renders here, spoils and writes in the background. */
 class Film {
   public:
@@ -45,12 +51,6 @@ class Film {
     void finish() { jobs_.finish(); }
 
   private:
-    bool coveredAt(double t) const {
-        for (const auto& [from, to] : world_.covered)
-            if (t >= from && t < to) return true;
-        return false;
-    }
-
     void placeFigures(double t) {
         for (std::size_t i = 0; i < world_.figure_poses.size(); ++i)
             renderer_.placeFigure(static_cast<int>(i), world_.figure_poses[i](t));
@@ -84,7 +84,7 @@ class Film {
         const double t = stamp - kFirstStamp_s;
         const Exposure exposure = world_.exposure(t);
         cv::Mat seen;
-        if (coveredAt(t))
+        if (isCovered(world_, t))
             seen = cv::Mat(camera_.height, camera_.width, CV_32FC3, cv::Scalar(4, 3, 5));
         else
             seen = exposed(t, options_.noise ? exposure.shutter_s : 0);
@@ -100,7 +100,7 @@ class Film {
         const double t = stamp - kFirstStamp_s;
         placeFigures(t);
         cv::Mat seen;
-        if (coveredAt(t))
+        if (isCovered(world_, t))
             seen = cv::Mat::zeros(camera_.height, camera_.width, CV_32FC1);
         else
             seen =
@@ -127,20 +127,6 @@ void makeEmptyFolder(const std::string& folder) {
     if (!std::filesystem::is_empty(folder))
         throw Error(folder + " is not empty", "remove what is in it or name a new folder");
 }
-
-FilmSummary summary(const Motion& motion, int frames) {
-    FilmSummary result;
-    result.frames = frames;
-    result.duration_s = frames / 30.0;
-    for (int i = 1; i < frames; ++i) {
-        const SE3 moved =
-            motion.T_world_cam((i - 1) / 30.0).inverse() * motion.T_world_cam(i / 30.0);
-        result.path_m += moved.t.norm();
-        result.max_speed = std::max(result.max_speed, 30 * moved.t.norm());
-        result.max_turn_rate = std::max(result.max_turn_rate, 30 * moved.angle());
-    }
-    return result;
-}
 }  // namespace
 
 Camera synthCamera(int width, int height) {
@@ -156,13 +142,29 @@ Camera synthCamera(int width, int height) {
 
 double colorStamp(const FilmOptions& options, int frame) {
     const double jitter =
-        options.noise ? Random::of(options.seed, kStampJitter, frame).uniform(-1e-3, 1e-3) : 0;
+        options.noise ? Random::of(options.seed, kStampJitter, frame).uniform(0, 2e-3) : 0;
     return toMicroseconds(kFirstStamp_s + frame / 30.0 + jitter);
 }
 
 double depthStamp(const FilmOptions& options, int frame) {
     const double lag = options.noise ? 0.0155 * std::sin(2 * std::acos(-1.0) * frame / 170.0) : 0;
     return toMicroseconds(colorStamp(options, frame) + lag);
+}
+
+FilmSummary summary(const World& world, int frames) {
+    FilmSummary result;
+    result.frames = frames;
+    result.duration_s = frames / 30.0;
+    for (int i = 1; i < frames; ++i) {
+        const double before = (i - 1) / 30.0, now = i / 30.0;
+        if (isCovered(world, before) || isCovered(world, now)) continue;
+        const SE3 moved =
+            world.motion.T_world_cam(before).inverse() * world.motion.T_world_cam(now);
+        result.path_m += moved.t.norm();
+        result.max_speed = std::max(result.max_speed, 30 * moved.t.norm());
+        result.max_turn_rate = std::max(result.max_turn_rate, 30 * moved.angle());
+    }
+    return result;
 }
 
 FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std::string& folder) {
@@ -183,13 +185,13 @@ FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std
 
     Film shooting(world, scene, options, folder);
     Progress progress("filming " + scenario.name, frames);
-    for (int frame = 0; frame < frames; ++frame) {
+    for (int frame = 0; frame < frames; frame += options.every) {
         shooting.shoot(frame);
-        progress.update(frame + 1);
+        progress.update(std::min(frames, frame + options.every));
     }
     shooting.finish();
     writePictureLists(folder, options, frames);
-    return summary(world.motion, frames);
+    return summary(world, frames);
 }
 
 }  // namespace rgbd_graphslam::synth

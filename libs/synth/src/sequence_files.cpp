@@ -32,11 +32,11 @@ void forEachReading(double hertz, int frames, const std::function<void(double t,
     for (long i = 0; i <= count; ++i) read(i / hertz - 0.1, i);
 }
 
-void writeList(const std::string& path, const char* title, const char* kind, int frames,
+void writeList(const std::string& path, const char* title, const char* kind, int frames, int every,
                const std::function<double(int)>& stamp) {
     writeStream(path, [&](std::ostream& out) {
         out << "# " << title << "\n# timestamp filename\n";
-        for (int i = 0; i < frames; ++i)
+        for (int i = 0; i < frames; i += every)
             out << formatted("%.6f ", stamp(i)) << pictureName(kind, stamp(i)) << '\n';
     });
 }
@@ -91,9 +91,9 @@ std::string pictureName(const char* kind, double stamp_s) {
 }
 
 void writePictureLists(const std::string& folder, const FilmOptions& options, int frames) {
-    writeList(folder + "/rgb.txt", "color images", "rgb", frames,
+    writeList(folder + "/rgb.txt", "color images", "rgb", frames, options.every,
               [&](int i) { return colorStamp(options, i); });
-    writeList(folder + "/depth.txt", "depth maps", "depth", frames,
+    writeList(folder + "/depth.txt", "depth maps", "depth", frames, options.every,
               [&](int i) { return depthStamp(options, i); });
 }
 

@@ -100,6 +100,18 @@ TEST_F(Sequence, StampsOfDepthAreUpToSixteenMillisecondsOff) {
     EXPECT_LE(largest, 0.016);
 }
 
+TEST_F(Sequence, EveryOtherFrameIsTheSameFrame) {
+    options_.frames = 4;
+    const auto all = filesBelow(filmed("no-structure", "all"));
+    options_.every = 2;
+    const auto some = filesBelow(filmed("no-structure", "some"));
+    EXPECT_EQ(some.size(), all.size() - 4);
+    for (const auto& [name, bytes] : some) {
+        if (name.find(".png") == std::string::npos) continue;
+        EXPECT_EQ(all.at(name), bytes) << name;
+    }
+}
+
 TEST_F(Sequence, TruthCoversAllFramesAtAHundredHertz) {
     const Trajectory truth = readTumTrajectory(filmed("office", "truth") + "/groundtruth.txt");
     EXPECT_LT(truth.front().stamp_s, depthStamp(options_, 0));

@@ -16,6 +16,8 @@ struct FilmOptions {
     /** Depth pictures are shifted by this along x, as by a wrong calibration. */
     double registration_error_px = 0;
     int session = 1;
+    /** Only every so many frames are filmed: a slower camera on the same way. */
+    int every = 1;
 };
 
 /** The camera of a sequence: 525 pixels of focal length at 640 x 480, scaled to other widths. */
@@ -26,7 +28,7 @@ Camera synthCamera(int width, int height);
 double colorStamp(const FilmOptions& options, int frame);
 double depthStamp(const FilmOptions& options, int frame);
 
-/** What was filmed. */
+/** How long and how fast a film is, without the times at which the camera is covered. */
 struct FilmSummary {
     int frames = 0;
     double duration_s = 0;
@@ -34,6 +36,9 @@ struct FilmSummary {
     double max_speed = 0;      // m/s
     double max_turn_rate = 0;  // rad/s
 };
+
+/** Known without filming. */
+FilmSummary summary(const World& world, int frames);
 
 /** Renders all frames and writes rgb/, depth/, rgb.txt, depth.txt, groundtruth.txt,
  *  accelerometer.txt, gyroscope.txt, odometry.txt (planar robots only), camera.ini and surface.ply.
