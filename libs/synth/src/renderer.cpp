@@ -77,7 +77,7 @@ class FilteredTriangles : public mrpt::opengl::CSetOfTexturedTriangles {
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR_MIPMAP_LINEAR);
         glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
         // Sharper than one sample a pixel would bear: pictures are averaged from several. Not
-        // anisotropic, which costs llvmpipe up to a minute a picture.
+        // anisotropic, which takes llvmpipe several seconds for some pictures.
         glTexParameterf(GL_TEXTURE_2D, GL_TEXTURE_LOD_BIAS, -0.7f);
     }
 
