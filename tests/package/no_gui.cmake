@@ -1,0 +1,10 @@
+# APP loads no GUI toolkit: it must start fast and on machines without a desktop.
+execute_process(COMMAND ldd ${APP} RESULT_VARIABLE code OUTPUT_VARIABLE libraries)
+if(NOT code EQUAL 0 OR NOT libraries MATCHES "libmrpt-core")
+    message(FATAL_ERROR "ldd ${APP} ended with ${code} and said:\n${libraries}")
+endif()
+string(REGEX MATCHALL "lib(mrpt-gui|wx_|gtk|gdk|Qt)[^ ]*" found "${libraries}")
+if(found)
+    list(JOIN found ", " found)
+    message(FATAL_ERROR "${APP} loads ${found}")
+endif()

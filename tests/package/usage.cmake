@@ -1,0 +1,21 @@
+# APP answers --help and --version, and refuses what it does not know.
+function(run result output)
+    execute_process(COMMAND ${APP} ${ARGN} RESULT_VARIABLE code OUTPUT_VARIABLE out ERROR_VARIABLE err)
+    set(${result} "${code}" PARENT_SCOPE)
+    set(${output} "${out}${err}" PARENT_SCOPE)
+endfunction()
+
+run(code text --help)
+if(NOT code EQUAL 0 OR NOT text MATCHES "Usage:" OR NOT text MATCHES "--quiet.*--verbose")
+    message(SEND_ERROR "--help ended with ${code} and said:\n${text}")
+endif()
+
+run(code text --version)
+if(NOT code EQUAL 0 OR NOT text STREQUAL "${VERSION}\n")
+    message(SEND_ERROR "--version ended with ${code} and said:\n${text}")
+endif()
+
+run(code text --no-such-option)
+if(code EQUAL 0 OR NOT text MATCHES "--no-such-option|required")
+    message(SEND_ERROR "--no-such-option ended with ${code} and said:\n${text}")
+endif()
