@@ -18,6 +18,23 @@ constexpr int fused_neighbours = 10;
 const Vector6d weak_sigma = (Vector6d() << 0.05, 0.05, 0.05, 0.05, 0.05, 0.05).finished();
 constexpr int fewest_for_information = 10;
 
+/** Some of a frame's keypoints. */
+struct Selection {
+    std::vector<int> keypoints;
+    std::vector<Descriptor> descriptors;
+};
+
+template <class Wanted>
+Selection select(const Frame& frame, Wanted&& wanted) {
+    Selection selection;
+    for (std::size_t i = 0; i < frame.keypoints.size(); ++i) {
+        if (!wanted(i)) continue;
+        selection.keypoints.push_back(static_cast<int>(i));
+        selection.descriptors.push_back(frame.descriptors[i]);
+    }
+    return selection;
+}
+
 }  // namespace
 
 LoopCloser::LoopCloser(const SlamOptions& options, const Camera& camera, SlamMap& map)
@@ -69,18 +86,22 @@ std::vector<PoseEdge> LoopCloser::findLoops(int keyframe) {
     return found;
 }
 
-/** Aligns a frame with the landmarks of one keyframe. */
+/** Aligns a frame with the landmarks of one keyframe. Only keypoints that can take part are
+ *  compared: with depth on one side, with a landmark on the other. */
 std::optional<LocatedFrame> LoopCloser::align(const Frame& frame, int candidate_id) const {
     const Keyframe& candidate = map_.keyframe(candidate_id);
-    const auto pairs =
-        matchMutually(frame, candidate.frame, options_.tracker.max_hamming, place_match_ratio);
+    const Selection seen =
+        select(frame, [&](std::size_t i) { return frame.keypoints[i].depth_m > 0; });
+    const Selection known = select(
+        candidate.frame, [&](std::size_t i) { return candidate.landmarks[i] != no_landmark; });
     std::vector<PointMatch> matches;
     std::vector<Eigen::Vector3d> points_cam;
     std::vector<std::pair<int, int>> used;  // keypoint, landmark
-    for (const auto& [keypoint, other] : pairs) {
+    for (const auto& [a, b] : matchMutually(seen.descriptors, known.descriptors,
+                                            options_.tracker.max_hamming, place_match_ratio)) {
+        const int keypoint = seen.keypoints[a];
+        const int landmark = candidate.landmarks[known.keypoints[b]];
         const Keypoint& k = frame.keypoints[keypoint];
-        const int landmark = candidate.landmarks[other];
-        if (landmark == no_landmark || k.depth_m <= 0) continue;
         matches.push_back({map_.landmark(landmark).position,
                            measurementOf(k, map_.scaleOf(k.octave), options_.sensor)});
         points_cam.push_back(camera_.unproject(k.u, k.v, k.depth_m));

@@ -79,10 +79,11 @@ std::vector<std::pair<int, int>> MatchTable::matches() const {
     return result;
 }
 
-std::vector<std::pair<int, int>> matchMutually(const Frame& a, const Frame& b, int max_hamming,
+std::vector<std::pair<int, int>> matchMutually(const std::vector<Descriptor>& a,
+                                               const std::vector<Descriptor>& b, int max_hamming,
                                                float ratio) {
-    std::vector<Best> best_of_a(a.descriptors.size()), best_of_b(b.descriptors.size());
-    compareAll(a.descriptors, b.descriptors, best_of_a, best_of_b);
+    std::vector<Best> best_of_a(a.size()), best_of_b(b.size());
+    compareAll(a, b, best_of_a, best_of_b);
     std::vector<std::pair<int, int>> pairs;
     for (std::size_t i = 0; i < best_of_a.size(); ++i) {
         const Best& best = best_of_a[i];

@@ -59,7 +59,7 @@ TEST(MatchMutually, pairsTwoViewsOfOneWorld) {
     SyntheticWorld world;
     const Camera camera;
     const Frame a = world.view(onCircle(0), 0, camera), b = world.view(onCircle(0.1), 1, camera);
-    const auto pairs = matchMutually(a, b, 64, 0.8f);
+    const auto pairs = matchMutually(a.descriptors, b.descriptors, 64, 0.8f);
     EXPECT_GT(pairs.size(), 200u);
 }
 

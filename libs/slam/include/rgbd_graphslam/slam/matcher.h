@@ -37,9 +37,10 @@ class MatchTable {
     std::vector<int> distance_;  // of the claim; -1 = reserved
 };
 
-/** Pairs (index in a, index in b) of keypoints that are each other's nearest by descriptor, nearer
- *  than `ratio` times the second nearest. Exhaustive: for frames with no known relative pose. */
-std::vector<std::pair<int, int>> matchMutually(const Frame& a, const Frame& b, int max_hamming,
+/** Pairs (index in a, index in b) of descriptors that are each other's nearest, nearer than `ratio`
+ *  times the second nearest. Exhaustive: for frames with no known relative pose. */
+std::vector<std::pair<int, int>> matchMutually(const std::vector<Descriptor>& a,
+                                               const std::vector<Descriptor>& b, int max_hamming,
                                                float ratio);
 
 }  // namespace rgbd_graphslam
