@@ -48,7 +48,7 @@ install_packages() {
 
 build_all() {
     say "Building into $build (the first time takes some minutes)"
-    [ -f "$build/build.ninja" ] || cmake --preset release
+    [ -f "$build/build.ninja" ] || cmake --preset "${build##*/}"
     cmake --build "$build"
 }
 
@@ -79,7 +79,7 @@ END
 case "${1:-}" in
     demo) install_packages; build_all; run_demo ;;
     test) install_packages; build_all; shift; run_tests "$@" ;;
-    bench) install_packages; build_all; shift; exec tests/bench/run "$@" ;;
+    bench) build=build/bench; install_packages; build_all; shift; exec tests/bench/run "$@" ;;
     build) install_packages; build_all ;;
     install) install_packages ;;
     *) usage; [ "${1:-}" = --help ] || exit 2 ;;
