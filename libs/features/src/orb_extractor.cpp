@@ -74,35 +74,49 @@ bool stronger(const FastCorner& a, const FastCorner& b) {
     return a.y != b.y ? a.y < b.y : a.x < b.x;
 }
 
-/** Corners of a level sorted into cells; faint ones count only in cells without any other.
- *  \return number of cells in use */
-std::size_t detectInCells(const cv::Mat& image, const FeatureOptions& options, Scratch& scratch) {
-    const cv::Rect inner(border_px, border_px, image.cols - 2 * border_px,
-                         image.rows - 2 * border_px);
-    const int columns = std::max(1, inner.width / options.cell_px);
-    const int rows = std::max(1, inner.height / options.cell_px);
-    const auto cellOf = [&](const FastCorner& c) -> std::vector<FastCorner>& {
+/** The cells that corners of a level are spread over. */
+struct CellGrid {
+    cv::Rect inner;
+    int columns, rows;
+
+    CellGrid(const cv::Mat& image, int cell_px)
+        : inner(border_px, border_px, image.cols - 2 * border_px, image.rows - 2 * border_px),
+          columns(std::max(1, inner.width / cell_px)),
+          rows(std::max(1, inner.height / cell_px)) {}
+
+    int size() const { return columns * rows; }
+    int cellOf(const FastCorner& c) const {
         const int column = (c.x - inner.x) * columns / inner.width;
         const int row = (c.y - inner.y) * rows / inner.height;
-        return scratch.cells[row * columns + column];
-    };
-    const std::size_t used = static_cast<std::size_t>(columns) * rows;
+        return row * columns + column;
+    }
+    /** The pixels that cellOf() counts to a cell. */
+    cv::Rect areaOf(int cell) const {
+        const int column = cell % columns, row = cell / columns;
+        const auto edge = [](int i, int length, int n) { return (i * length + n - 1) / n; };
+        const int x0 = edge(column, inner.width, columns), y0 = edge(row, inner.height, rows);
+        return {inner.x + x0, inner.y + y0, edge(column + 1, inner.width, columns) - x0,
+                edge(row + 1, inner.height, rows) - y0};
+    }
+};
+
+/** Corners of a level sorted into cells; faint ones are looked for only in cells without any other.
+ *  \return number of cells in use */
+std::size_t detectInCells(const cv::Mat& image, const FeatureOptions& options, Scratch& scratch) {
+    const CellGrid grid(image, options.cell_px);
+    const auto used = static_cast<std::size_t>(grid.size());
     if (scratch.cells.size() < used) scratch.cells.resize(used);
     for (std::size_t c = 0; c < used; ++c) scratch.cells[c].clear();
     scratch.corners.clear();
+    detectFast(image, grid.inner, options.fast_threshold, scratch.corners);
+    for (const FastCorner& corner : scratch.corners) {
+        scratch.cells[grid.cellOf(corner)].push_back(corner);
+    }
     const int least = std::min(options.fast_threshold_min, options.fast_threshold);
-    detectFast(image, inner, least, scratch.corners);
-    for (const FastCorner& corner : scratch.corners) {
-        if (corner.score >= options.fast_threshold) cellOf(corner).push_back(corner);
-    }
-    std::vector<char> has_strong(used);
-    for (std::size_t c = 0; c < used; ++c) has_strong[c] = !scratch.cells[c].empty();
-    for (const FastCorner& corner : scratch.corners) {
-        auto& cell = cellOf(corner);
-        if (!has_strong[&cell - scratch.cells.data()]) cell.push_back(corner);
-    }
     for (std::size_t c = 0; c < used; ++c) {
-        std::sort(scratch.cells[c].begin(), scratch.cells[c].end(), stronger);
+        auto& cell = scratch.cells[c];
+        if (cell.empty()) detectFast(image, grid.areaOf(static_cast<int>(c)), least, cell);
+        std::sort(cell.begin(), cell.end(), stronger);
     }
     return used;
 }

@@ -155,7 +155,8 @@ std::optional<LocatedFrame> LoopCloser::relocalise(const Frame& frame, Tracker& 
         const auto aligned = align(frame, vote.keyframe);
         if (!aligned) continue;
         auto located = tracker.trackLocalMap(frame, aligned->T_cam_world, aligned->landmarks);
-        if (located) return located;
+        // As much proof as a loop needs: a wrong place is worse than none.
+        if (located && located->inliers >= options_.loops.min_inliers) return located;
     }
     return std::nullopt;
 }

@@ -8,8 +8,8 @@ struct FeatureOptions : Options {
     int count = 1000;
     int levels = 6;
     double scale_factor = 1.25;
-    int fast_threshold = 20;
-    int fast_threshold_min = 7;
+    int fast_threshold = 12;
+    int fast_threshold_min = 3;
     int cell_px = 32;
     double depth_min_m = 0.2;
     double depth_max_m = 10.0;
