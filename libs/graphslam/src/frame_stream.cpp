@@ -46,15 +46,18 @@ class FrameStream::Implementation {
         }
     }
 
-    ~Implementation() {
-        queue_.close();
-        for (std::thread& worker : workers_) worker.join();
-    }
+    ~Implementation() { stop(); }
 
     void start(Prepare prepare) {
         prepare_ = std::move(prepare);
         busy_workers_ = options_.threads - 1;
         for (int i = 0; i < options_.threads - 1; ++i) workers_.emplace_back([this] { work(); });
+    }
+
+    void stop() {
+        queue_.close();
+        for (std::thread& worker : workers_) worker.join();
+        workers_.clear();
     }
 
     std::optional<StreamedFrame> next() {
@@ -184,6 +187,10 @@ void FrameStream::start(Prepare prepare) {
 
 std::optional<StreamedFrame> FrameStream::next() {
     return impl_->next();
+}
+
+void FrameStream::stop() {
+    impl_->stop();
 }
 
 std::size_t FrameStream::expectedFrames() const {

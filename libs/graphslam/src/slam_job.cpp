@@ -62,6 +62,10 @@ class Job {
           stream_(job.rawlog, job.options.run),
           session_(job.options.slam, stream_.firstFrame()) {}
 
+    ~Job() { stream_.stop(); }  // frames read ahead are prepared by the session, which goes first
+    Job(const Job&) = delete;
+    Job& operator=(const Job&) = delete;
+
     JobReport run() {
         track();
         session_.finish();

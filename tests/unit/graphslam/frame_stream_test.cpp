@@ -82,6 +82,22 @@ TEST_P(StreamOfARawlog, canBeLeftInTheMiddle) {
     EXPECT_TRUE(stream.next());
 }
 
+TEST_P(StreamOfARawlog, preparesNothingOnceStopped) {
+    std::atomic<bool> stopped{false};
+    std::atomic<int> too_late{0};
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start([&](const RgbdImage& image) {
+        Frame frame = slowAtFirst(image);
+        if (stopped) ++too_late;
+        return frame;
+    });
+    ASSERT_TRUE(stream.next());
+    stream.stop();
+    stopped = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_EQ(too_late, 0);
+}
+
 TEST_P(StreamOfARawlog, handsOutWhatComesBeforeTheCut) {
     cutFile(rawlog_, 0.6);
     FrameStream stream(rawlog_, withThreads(GetParam()));

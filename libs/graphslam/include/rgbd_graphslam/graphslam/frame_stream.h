@@ -47,6 +47,10 @@ class FrameStream {
      *          usable images; there is nothing after it */
     std::optional<StreamedFrame> next();
 
+    /** Waits until no frame is being prepared and ends reading ahead: what `prepare` uses may go.
+     */
+    void stop();
+
     /** Number of frames in the whole rawlog, estimated from what is read. */
     std::size_t expectedFrames() const;
 
