@@ -75,8 +75,8 @@ int main(int argc, char** argv) {
                    "PICTURE DIR...: show finished sequences in one picture, film nothing");
     app.add_option("--session", options.session, "of a scenario with several")
         ->capture_default_str();
-    app.add_flag("--quiet", quiet, "no progress");
-    app.add_flag("--verbose", verbose, "more messages");
+    app.add_flag("-q,--quiet", quiet, "no progress");
+    app.add_flag("-v,--verbose", verbose, "more messages");
     app.set_version_flag("--version", RGBD_VERSION);
     CLI11_PARSE(app, argc, argv);
     return runMain("rgbd-synth", [&] {
