@@ -72,7 +72,8 @@ class Bench:
         runs = [self.run(sequence, *options) for _ in range(self.runs)]
         figures = {key: statistics.median(run[0][key] for run in runs) for key in runs[0][0]}
         figures.update(self._errors(sequence))
-        figures["same_in_all_runs"] = len({digest for _, digest, _ in runs}) == 1
+        digests = {digest for _, digest, _ in runs}
+        figures["same_in_all_runs"] = len(digests) == 1 if len(runs) > 1 else None
         figures["stages"] = runs[-1][2]
         return figures
 

@@ -32,6 +32,8 @@ def _located(figures):
 
 
 def _yes(value):
+    if value is None:
+        return MISSING
     return "yes" if value else "**NO**"
 
 
@@ -42,7 +44,7 @@ def _accuracy(figures):
 
 def accuracy(results):
     head = ["sequence", "frames", "tracked/recovered/lost", "keyframes", "loops", "ATE RMSE m",
-            "RPE 1 s m", "RPE 1 s °", "3 runs same", "1, 2, 4 threads same"]
+            "RPE 1 s m", "RPE 1 s °", "runs same", "1, 2, 4 threads same"]
     rows = []
     for name, figures in results.items():
         rows.append([f"`{name}`", _count(figures, "frames"), _located(figures),
