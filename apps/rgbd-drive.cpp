@@ -1,0 +1,42 @@
+/** Drives a simulated robot through the saved map of a run: an example of navigation with MRPT. */
+#include <CLI/CLI.hpp>
+#include <cstdio>
+
+#include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/navigation/drive_job.h"
+
+using namespace rgbd_graphslam;
+
+int main(int argc, char** argv) {
+    DriveRequest request;
+    std::vector<double> start, goal;
+    bool quiet = false, verbose = false;
+    CLI::App app(
+        "Plans a way through the saved map of a run and drives a simulated robot along it.");
+    app.add_option("INI", request.ini, "Settings, e.g. ini/drive.ini")->required();
+    app.add_option("OUT", request.run_folder, "Output folder of rgbd-slam")->required();
+    app.add_option("--goal", goal, "x,y in the map, m")->delimiter(',')->expected(2)->required();
+    app.add_option("--start", start,
+                   "x,y,phi in the map, m and rad (default: below the first camera, its way)")
+        ->delimiter(',')
+        ->expected(3);
+    app.add_option("--surface", request.surface,
+                   "True surface (.ply): check the driven path against it");
+    app.add_option("--truth", request.truth,
+                   "True trajectory, which tells where the map lies in the true surface's frame");
+    app.add_option("-o,--output", request.out_folder,
+                   "Folder for path.csv and drive.png (default: OUT)");
+    app.add_option("--set", request.settings, "DriveOptions.key=value instead of the ini's");
+    app.add_flag("-q,--quiet", quiet, "Warnings and errors only");
+    app.add_flag("-v,--verbose", verbose, "Say more");
+    app.set_version_flag("--version", RGBD_VERSION);
+    CLI11_PARSE(app, argc, argv);
+    return runMain("rgbd-drive", [&] {
+        setVerbosity(quiet ? Verbosity::Quiet : verbose ? Verbosity::Verbose : Verbosity::Normal);
+        request.goal = {goal[0], goal[1]};
+        if (!start.empty()) request.start = mrpt::math::TPose2D(start[0], start[1], start[2]);
+        const DriveSummary summary = runDrive(request);
+        if (!quiet) std::fputs(toText(summary).c_str(), stdout);
+        return summary.good() ? 0 : 2;
+    });
+}
