@@ -9,7 +9,7 @@ packages=(
     libmrpt-dev libmrpt-nanogui-dev mrpt-apps
     libeigen3-dev libopencv-dev libceres-dev liboctomap-dev octomap-tools
     libcli11-dev nlohmann-json3-dev libarchive-dev gnuplot-nox
-    libgtest-dev libgmock-dev libbenchmark-dev xvfb xauth
+    libgtest-dev libgmock-dev libbenchmark-dev python3 xvfb xauth
 )
 
 usage() {
@@ -26,7 +26,14 @@ END
 say() { printf '\n== %s\n' "$*"; }
 
 as_root() {
-    if [ "$(id -u)" -eq 0 ]; then "$@"; else sudo "$@"; fi
+    if [ "$(id -u)" -eq 0 ]; then
+        "$@"
+    elif command -v sudo >/dev/null; then
+        sudo "$@"
+    else
+        echo "run.sh: error: this needs root or sudo: $*" >&2
+        exit 1
+    fi
 }
 
 installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
@@ -58,21 +65,29 @@ run_tests() {
 }
 
 run_demo() {
-    local sample=rawlogs/office_sample.rawlog out=out/demo bin=$build/bin
+    local sample=rawlogs/office_sample.rawlog out=out/demo bin=$build/bin figures drift
     say "SLAM on $sample"
-    "$bin/rgbd-slam" ini/default.ini "$sample" -o "$out"
+    figures=$("$bin/rgbd-slam" ini/default.ini "$sample" -o "$out")
     say "Evaluating against the exact truth in the rawlog"
-    "$bin/rgbd-eval" ate "$out/trajectory.txt" "$sample" --plot "$out/ate.png"
+    "$bin/rgbd-eval" ate "$out/trajectory.txt" "$sample" --plot "$out/ate.png" >"$out/ate.txt"
+    drift=$("$bin/rgbd-eval" rpe "$out/trajectory.txt" "$sample" --fixed-delta |
+        awk '/translational_error.rmse/ { m = $2 } /rotational_error.rmse/ { deg = $2 }
+             END { printf "RPE RMSE      %.4f m, %.2f deg over 1 s", m, deg }')
     say "Rendering the map"
-    "$bin/rgbd-viewer" "$out" --snapshot "$out/map.png"
+    "$bin/rgbd-viewer" "$out" --snapshot "$out/view.png" --zoom 1.45
+    say "Results"
+    sed -e "/^ATE RMSE/a $drift" -e '/^written/d' <<<"$figures"
     say "Everything is in $out"
     cat <<END
-  $out/map.png          picture of the map
-  $out/ate.png          trajectory with its error
+  $out/view.png         picture of the map
+  $out/map.png          the map from above
+  $out/ate.png          trajectory and truth; ate.txt has the figures
   $out/points.ply       coloured points (MeshLab, CloudCompare)
   $out/octree.bt        octree with free space (octovis)
-  $out/scene.3Dscene    everything (SceneViewer3D $out/scene.3Dscene)
+  $out/grid.png, .yaml  floor plan for navigation (ROS)
+  $out/scene.3Dscene    all in one: SceneViewer3D $out/scene.3Dscene
   $out/summary.json     figures of the run
+doc/viewing.md shows how to look at the rest.
 END
 }
 
