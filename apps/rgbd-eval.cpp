@@ -5,6 +5,7 @@
 
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/evaluation/commands.h"
+#include "rgbd_graphslam/mapping/octree_accuracy.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -216,6 +217,26 @@ void addMap(CLI::App& app, MapRequest& request) {
     command.final_callback([&request] { print(runMap(request)); });
 }
 
+void addOctree(CLI::App& app, OctreeRequest& request) {
+    auto& command = *app.add_subcommand("octree", "Surface and free space of an octree");
+    command.add_option("OCTREE.bt", request.octree, "Octree of the map")->required();
+    command.add_option("TRUE_SURFACE.ply", request.surface, "Triangles, or points close together")
+        ->required();
+    auto* estimate =
+        command.add_option("--estimate", request.estimate,
+                           "Trajectory of the map: aligned with --truth, it moves the map");
+    command.add_option("--truth", request.truth, "True trajectory, in the surface's frame")
+        ->needs(estimate);
+    estimate->needs("--truth");
+    command
+        .add_option("--tolerance", request.tolerance_m,
+                    "An occupied voxel so near to the surface is right, m")
+        ->check(notNegative())
+        ->capture_default_str();
+    declareFormat(command, request.format);
+    command.final_callback([&request] { print(runOctreeEvaluation(request)); });
+}
+
 int run(int argc, char** argv) {
     CLI::App app("Evaluates RGB-D trajectories and maps as the TUM RGB-D benchmark does.");
     app.set_version_flag("--version", RGBD_VERSION);
@@ -236,6 +257,8 @@ int run(int argc, char** argv) {
     addAssociate(app, association);
     addPointCloud(app, cloud, cloud_files);
     addMap(app, map);
+    OctreeRequest octree;
+    addOctree(app, octree);
     try {
         app.parse(argc, argv);
     } catch (const CLI::ParseError& e) {

@@ -1,0 +1,40 @@
+/** How well an octree tells surface from free space. */
+#pragma once
+#include <string>
+
+#include "rgbd_graphslam/evaluation/alignment.h"
+#include "rgbd_graphslam/evaluation/ply.h"
+#include "rgbd_graphslam/evaluation/report.h"
+
+namespace octomap {
+class OcTree;
+}
+
+namespace rgbd_graphslam {
+
+/** Of the voxels that the octree knows as occupied or free; the others were not seen. */
+struct OctreeAccuracy {
+    std::size_t surface_voxels = 0;  // known voxels with true surface inside
+    double surface_occupied = 0;     // share of them that are occupied
+    /** The same, where an occupied voxel within tolerance_m of the surface counts as well: a wall
+     *  in the boundary of two voxels is in one of them by chance. */
+    double surface_occupied_within_tolerance = 0;
+    std::size_t free_voxels = 0;  // known voxels without surface within tolerance_m
+    double free_occupied = 0;     // share of them that are occupied
+};
+
+/** \param surface triangles or dense points \param truth_from_map moves the map onto the surface
+ *  \param tolerance_m noise of depth that counts as the surface's place */
+OctreeAccuracy evaluateOctree(const octomap::OcTree& tree, const PlyModel& surface,
+                              const Similarity& truth_from_map, double tolerance_m);
+
+struct OctreeRequest {
+    std::string octree, surface;  // .bt, .ply
+    std::string estimate, truth;  // with both, the map is moved as the estimate is to fit the truth
+    double tolerance_m = 0.02;
+    ReportFormat format = ReportFormat::Text;
+};
+/** \return the table to print \throws Error for what cannot be read */
+std::string runOctreeEvaluation(const OctreeRequest& request);
+
+}  // namespace rgbd_graphslam

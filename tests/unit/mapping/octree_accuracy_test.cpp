@@ -1,0 +1,70 @@
+#include "rgbd_graphslam/mapping/octree_accuracy.h"
+
+#include <gtest/gtest.h>
+#include <octomap/OcTree.h>
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr float low = 0.02f, high = 0.98f;
+
+/** A wall of 1 x 1 m at x = 0.52, within the voxels from 0.5 to 0.55 m. */
+PlyModel wall() {
+    PlyModel surface;
+    surface.vertices = {
+        {0.52f, low, low}, {0.52f, high, low}, {0.52f, high, high}, {0.52f, low, high}};
+    surface.triangles = {{0, 1, 2}, {0, 2, 3}};
+    return surface;
+}
+
+/** Free before the layer of voxels of the wall, that layer occupied. */
+octomap::OcTree mapOfWall() {
+    octomap::OcTree tree(0.05);
+    for (int x = 0; x <= 10; ++x) {
+        for (int y = 0; y < 20; ++y) {
+            for (int z = 0; z < 20; ++z)
+                tree.updateNode(0.05 * x + 0.025, 0.05 * y + 0.025, 0.05 * z + 0.025, x == 10);
+        }
+    }
+    tree.prune();
+    return tree;
+}
+
+TEST(OctreeAccuracy, isFullForAPerfectMapHoweverPruned) {
+    const auto accuracy = evaluateOctree(mapOfWall(), wall(), {}, 0.01);
+    EXPECT_EQ(accuracy.surface_voxels, 400u);
+    EXPECT_EQ(accuracy.free_voxels, 4000u);
+    EXPECT_EQ(accuracy.surface_occupied, 1);
+    EXPECT_EQ(accuracy.free_occupied, 0);
+}
+
+TEST(OctreeAccuracy, countsMissedSurfaceAndGhosts) {
+    auto tree = mapOfWall();
+    for (int i = 0; i < 20; ++i) {
+        tree.setNodeValue(0.525, 0.05 * i + 0.025, 0.025, -1.f);  // one row of 20
+        tree.setNodeValue(0.125, 0.05 * i + 0.025, 0.025, 1.f);
+    }
+    const auto accuracy = evaluateOctree(tree, wall(), {}, 0.01);
+    EXPECT_DOUBLE_EQ(accuracy.surface_occupied, 0.95);
+    EXPECT_DOUBLE_EQ(accuracy.free_occupied, 20. / 4000);
+}
+
+TEST(OctreeAccuracy, toleranceForgivesTheNeighbouringVoxel) {
+    PlyModel surface = wall();
+    for (auto& vertex : surface.vertices) vertex.x() = 0.495f;
+    const auto accuracy = evaluateOctree(mapOfWall(), surface, {}, 0.01);
+    EXPECT_EQ(accuracy.surface_occupied, 0);
+    EXPECT_EQ(accuracy.surface_occupied_within_tolerance, 1);
+    EXPECT_EQ(accuracy.free_occupied, 0);
+}
+
+TEST(OctreeAccuracy, movesTheMapOntoTheTruth) {
+    PlyModel surface = wall();
+    for (auto& vertex : surface.vertices) vertex += Eigen::Vector3f(3, -2, 1);
+    Similarity truth_from_map;
+    truth_from_map.motion.t = {3, -2, 1};
+    EXPECT_EQ(evaluateOctree(mapOfWall(), surface, truth_from_map, 0.01).surface_occupied, 1);
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
