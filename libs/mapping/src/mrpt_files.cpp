@@ -13,8 +13,9 @@
 namespace rgbd_graphslam {
 namespace {
 
-// Thresholds of ROS's map_server; probabilities of being occupied.
-constexpr float occupied_threshold = 0.65f, free_threshold = 0.25f;
+// Probabilities of being occupied. A reader takes the grey of unknown for 50 / 255 = 0.19608, which
+// must not be below the threshold of free space.
+constexpr float occupied_threshold = 0.65f, free_threshold = 0.196f;
 constexpr int ros_occupied = 0, ros_unknown = 205, ros_free = 254;
 
 int rosShade(float probability_free) {
@@ -27,7 +28,7 @@ std::string rosYaml(const std::string& image, const mrpt::maps::COccupancyGridMa
     std::snprintf(
         text, sizeof(text),
         "image: %s\nmode: trinary\nresolution: %.6g\norigin: [%.6g, %.6g, 0.0]\nnegate: 0\n"
-        "occupied_thresh: %.2f\nfree_thresh: %.2f\n",
+        "occupied_thresh: %.2f\nfree_thresh: %.3f\n",
         image.c_str(), grid.getResolution(), grid.getXMin(), grid.getYMin(), occupied_threshold,
         free_threshold);
     return text;
