@@ -52,6 +52,14 @@ std::vector<VisualSlam::StageTime> byCost(std::vector<VisualSlam::StageTime> sta
     return stages;
 }
 
+Json loopEdgesJson(const JobReport& report) {
+    Json edges = Json::array();
+    for (const PoseEdge& edge : report.loop_edges) {
+        edges.push_back({edge.from, edge.to, edge.inliers});
+    }
+    return edges;
+}
+
 }  // namespace
 
 StageFigures figuresOf(const std::vector<double>& ms) {
@@ -83,7 +91,8 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"keyframes", report.keyframes},
         {"culled_keyframes", report.culled_keyframes},
         {"landmarks", report.landmarks},
-        {"loops", report.loops},
+        {"loops", report.loop_edges.size()},
+        {"loop_edges", loopEdgesJson(report)},
         {"path_m", report.path_m},
         {"ate", ateJson(report)},
         {"frames_per_s", report.framesPerSecond()},
@@ -101,8 +110,8 @@ std::string resultTable(const SlamJob& job, const JobReport& report) {
     if (report.out_of_order > 0) {
         text += formatted("left out      %zu frames out of order\n", report.out_of_order);
     }
-    text += formatted("keyframes     %zu\nloops         %d\npath          %.2f m\n",
-                      report.keyframes, report.loops, report.path_m);
+    text += formatted("keyframes     %zu\nloops         %zu\npath          %.2f m\n",
+                      report.keyframes, report.loop_edges.size(), report.path_m);
     if (report.ate_rmse_m) {
         text += formatted("ATE RMSE      %.4f m over %zu poses\n", *report.ate_rmse_m,
                           report.ate_pairs);

@@ -45,14 +45,12 @@ double pathLength(const Trajectory& trajectory) {
     return length;
 }
 
-/** Keyframes chained by odometry edges alone. */
-Trajectory withoutLoops(const Trajectory& keyframes, const PoseGraph& graph) {
-    Trajectory chain = keyframes;
-    for (const PoseEdge& edge : graph.edges) {
-        if (edge.kind != EdgeKind::Odometry || edge.to != edge.from + 1) continue;
-        chain[edge.to].T_world_cam = chain[edge.from].T_world_cam * edge.T_from_to;
+/** Keyframes chained by the relative poses that tracking measured between them, before any loop. */
+Trajectory chained(Trajectory keyframes, const std::vector<SE3>& T_previous_keyframe) {
+    for (std::size_t k = 1; k < keyframes.size(); ++k) {
+        keyframes[k].T_world_cam = keyframes[k - 1].T_world_cam * T_previous_keyframe[k];
     }
-    return chain;
+    return keyframes;
 }
 
 class Job {
@@ -97,7 +95,7 @@ class Job {
     Interruption interruption_;
     JobReport report_;
     std::optional<double> last_stamp_s_;
-    std::size_t keyframes_ = 0;
+    std::vector<SE3> T_previous_keyframe_;  // one a keyframe, the identity for the first
 };
 
 void Job::track() {
@@ -141,12 +139,15 @@ void Job::trackOne(const StreamedFrame& frame) {
     }
     last_stamp_s_ = stamp_s;
     ++report_.frames;
-    if (session_.step(frame.observation, frame.prepared).keyframe) ++keyframes_;
+    const auto keyframe = session_.step(frame.observation, frame.prepared).keyframe;
+    if (!keyframe) return;
+    T_previous_keyframe_.push_back(*keyframe > 0 ? session_.slam().odometryEdge(*keyframe).T_from_to
+                                                 : SE3());
 }
 
 std::string Job::progressNote() const {
     const int loops = session_.loopEdges();
-    return std::to_string(keyframes_) + " keyframes" +
+    return std::to_string(T_previous_keyframe_.size()) + " keyframes" +
            (loops > 0 ? ", " + std::to_string(loops) + " loops" : "");
 }
 
@@ -159,7 +160,9 @@ void Job::describe() {
         report_.culled_keyframes += keyframe.culled;
     }
     report_.landmarks = slam.landmarks().size();
-    report_.loops = session_.loopEdges();
+    for (const PoseEdge& edge : slam.poseGraph().edges) {
+        if (edge.kind == EdgeKind::Loop) report_.loop_edges.push_back(edge);
+    }
     const Trajectory trajectory = located(slam.frames());
     report_.path_m = pathLength(trajectory);
     evaluate(trajectory);
@@ -200,13 +203,11 @@ MapInputs Job::mapInputs() const {
     for (const KeyframeView& keyframe : session_.slam().keyframes()) {
         inputs.keyframes.push_back({keyframe.stamp_s, keyframe.T_world_cam});
     }
-    const PoseGraph graph = session_.slam().poseGraph();
-    for (const PoseEdge& edge : graph.edges) {
-        if (edge.kind != EdgeKind::Loop) continue;
+    for (const PoseEdge& edge : report_.loop_edges) {
         inputs.loops.push_back({edge.from, edge.to, edge.inliers});
     }
     if (!inputs.loops.empty()) {
-        inputs.keyframes_before_loops = withoutLoops(inputs.keyframes, graph);
+        inputs.keyframes_before_loops = chained(inputs.keyframes, T_previous_keyframe_);
     }
     return inputs;
 }
@@ -214,6 +215,10 @@ MapInputs Job::mapInputs() const {
 void Job::writePoses(const MapInputs& upright, const SE3& T_up_world) const {
     writeTextAtomically(path("trajectory.txt"), toTumText(upright.trajectory));
     writeTextAtomically(path("keyframes.txt"), toTumText(upright.keyframes));
+    if (!upright.keyframes_before_loops.empty()) {
+        writeTextAtomically(path("keyframes_before_loops.txt"),
+                            toTumText(upright.keyframes_before_loops));
+    }
     session_.writeGraph(path("graph.graph"), T_up_world);
 }
 

@@ -20,7 +20,7 @@ struct JobReport {
     /** Frames left out because their stamp was not later than the one before. */
     std::size_t out_of_order = 0;
     std::size_t keyframes = 0, culled_keyframes = 0, landmarks = 0;
-    int loops = 0;
+    std::vector<PoseEdge> loop_edges;
     double path_m = 0;
     /** Against the rawlog's ground truth, where it has one. */
     std::optional<double> ate_rmse_m;
