@@ -1,6 +1,7 @@
 #include "rgbd_graphslam/core/atomic_file.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
@@ -15,10 +16,12 @@ namespace fs = std::filesystem;
 class AtomicFile : public testing::Test {
   protected:
     void SetUp() override {
-        folder_ = fs::path(testing::TempDir()) / "rgbd-atomic-file";
+        // ctest runs each test in a process of its own, several at a time.
+        folder_ = fs::path(testing::TempDir()) / ("rgbd-atomic-file-" + std::to_string(getpid()));
         fs::remove_all(folder_);
         fs::create_directories(folder_);
     }
+    void TearDown() override { fs::remove_all(folder_); }
     std::string path() const { return (folder_ / "a.txt").string(); }
     std::string content() const {
         std::ostringstream text;
@@ -30,10 +33,11 @@ class AtomicFile : public testing::Test {
 
 TEST_F(AtomicFile, failureKeepsTheOldFileAndLeavesNoTemporary) {
     writeTextAtomically(path(), "old");
-    EXPECT_THROW(writeAtomically(path(), [](const std::string& temporary) {
-                     std::ofstream(temporary) << "half";
-                     return false;
-                 }),
+    EXPECT_THROW(writeAtomically(path(),
+                                 [](const std::string& temporary) {
+                                     std::ofstream(temporary) << "half";
+                                     return false;
+                                 }),
                  Error);
     EXPECT_EQ(content(), "old");
     EXPECT_EQ(std::distance(fs::directory_iterator(folder_), fs::directory_iterator()), 1);
