@@ -3,6 +3,7 @@
 #include <mrpt/config/CConfigFileMemory.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -31,6 +32,13 @@ std::string withoutComment(const std::string& line) {
 std::string sectionName(const std::string& line) {
     const bool is_section = line.size() > 2 && line.front() == '[' && line.back() == ']';
     return is_section ? trimmed(line.substr(1, line.size() - 2)) : std::string{};
+}
+
+/** People forget the ini before the rawlog, whose bytes do not belong on a terminal. */
+void checkIsText(const std::string& text, const std::string& name) {
+    const auto is_foreign = [](unsigned char c) { return c < ' ' && !std::isspace(c); };
+    if (std::none_of(text.begin(), text.end(), is_foreign)) return;
+    throw Error("'" + name + "' is no text file", "name an ini file here");
 }
 
 /** MRPT's parser skips lines that it does not understand and forgets where a key stood; this pass
@@ -209,6 +217,7 @@ IniFile IniFile::fromFile(const std::string& path) {
 }
 
 IniFile IniFile::fromText(const std::string& text, const std::string& name) {
+    checkIsText(text, name);
     const auto origins = locateKeys(text, name);
     mrpt::config::CConfigFileMemory mrpt_ini;
     mrpt_ini.setContent(text);

@@ -33,6 +33,12 @@ std::string problemOf(const std::string& text) {
     return "";
 }
 
+TEST(IniFile, bytesOfOtherFilesAreNotQuoted) {
+    EXPECT_EQ(problemOf(std::string("\x1f\x8b\x08\0rest", 8)),
+              "'a.ini' is no text file; name an ini file here");
+    EXPECT_EQ(problemOf("[SampleOptions]\r\n\tsize_m = 0.5\r\n"), "");
+}
+
 TEST(IniFile, readsEveryKindOfValueAndComment) {
     SampleOptions options;
     IniFile::fromText("; note\n[SampleOptions]\nsize_m = 0.25 // [m]\ncount=3\nfast=false\nmode=far\n", "a.ini")
