@@ -1,7 +1,7 @@
 /** rawlog2tum: the RGB-D frames of an MRPT rawlog become a TUM RGB-D sequence. */
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/dataset/tum_export.h"
 
@@ -11,11 +11,9 @@ namespace {
 struct Arguments {
     std::string rawlog, folder;
     ExportOptions options;
-    bool quiet = false, verbose = false;
 };
 
 void declare(CLI::App& app, Arguments& args) {
-    app.set_version_flag("--version", RGBD_VERSION);
     app.add_option("RAWLOG", args.rawlog, "Rawlog with RGB-D frames")->required();
     app.add_option("DIR", args.folder, "Folder to make")->required();
     app.add_option("--from", args.options.from_s, "Leave out what is earlier, s after first frame");
@@ -26,8 +24,7 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_option("--threads", args.options.threads, "Threads that encode images")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
-    app.add_flag("-q,--quiet", args.quiet, "Only errors and results");
-    app.add_flag("-v,--verbose", args.verbose, "Say more");
+    declareCommonOptions(app);
 }
 
 int run(const Arguments& args) {
@@ -42,11 +39,9 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
     using namespace rgbd_graphslam;
-    CLI::App app("Exports the RGB-D frames of an MRPT rawlog in the TUM RGB-D benchmark's layout");
+    CLI::App app("Exports the RGB-D frames of an MRPT rawlog in the TUM RGB-D benchmark's layout",
+                 "rawlog2tum");
     Arguments args;
     declare(app, args);
-    CLI11_PARSE(app, argc, argv);
-    if (args.quiet) setVerbosity(Verbosity::Quiet);
-    if (args.verbose) setVerbosity(Verbosity::Verbose);
-    return runMain("rawlog2tum", [&] { return run(args); });
+    return runProgram(app, argc, argv, [&] { return run(args); });
 }

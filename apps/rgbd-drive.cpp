@@ -1,7 +1,7 @@
 /** Drives a simulated robot through the saved map of a run: an example of navigation with MRPT. */
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/navigation/drive_job.h"
 
@@ -10,9 +10,9 @@ using namespace rgbd_graphslam;
 int main(int argc, char** argv) {
     DriveRequest request;
     std::vector<double> start, goal;
-    bool quiet = false, verbose = false;
     CLI::App app(
-        "Plans a way through the saved map of a run and drives a simulated robot along it.");
+        "Plans a way through the saved map of a run and drives a simulated robot along it.",
+        "rgbd-drive");
     app.add_option("INI", request.ini, "Settings, e.g. ini/drive.ini")->required();
     app.add_option("OUT", request.run_folder, "Output folder of rgbd-slam")->required();
     app.add_option("--goal", goal, "x,y in the map, m")->delimiter(',')->expected(2)->required();
@@ -27,16 +27,12 @@ int main(int argc, char** argv) {
     app.add_option("-o,--output", request.out_folder,
                    "Folder for path.csv and drive.png (default: OUT)");
     app.add_option("--set", request.settings, "DriveOptions.key=value instead of the ini's");
-    app.add_flag("-q,--quiet", quiet, "Warnings and errors only");
-    app.add_flag("-v,--verbose", verbose, "Say more");
-    app.set_version_flag("--version", RGBD_VERSION);
-    CLI11_PARSE(app, argc, argv);
-    return runMain("rgbd-drive", [&] {
-        setVerbosity(quiet ? Verbosity::Quiet : verbose ? Verbosity::Verbose : Verbosity::Normal);
+    declareCommonOptions(app);
+    return runProgram(app, argc, argv, [&] {
         request.goal = {goal[0], goal[1]};
         if (!start.empty()) request.start = mrpt::math::TPose2D(start[0], start[1], start[2]);
         const DriveSummary summary = runDrive(request);
-        if (!quiet) std::fputs(toText(summary).c_str(), stdout);
+        if (verbosity() != Verbosity::Quiet) std::fputs(toText(summary).c_str(), stdout);
         return summary.good() ? 0 : 2;
     });
 }

@@ -1,9 +1,8 @@
 /** rgbd-eval: how good trajectories and maps are. */
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
 
-#include "rgbd_graphslam/core/console.h"
+#include "command_line.h"
 #include "rgbd_graphslam/evaluation/commands.h"
 #include "rgbd_graphslam/mapping/octree_accuracy.h"
 
@@ -238,14 +237,10 @@ void addOctree(CLI::App& app, OctreeRequest& request) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("Evaluates RGB-D trajectories and maps as the TUM RGB-D benchmark does.");
-    app.set_version_flag("--version", RGBD_VERSION);
+    CLI::App app("Evaluates RGB-D trajectories and maps as the TUM RGB-D benchmark does.",
+                 "rgbd-eval");
     app.require_subcommand(1);
     app.fallthrough();
-    app.add_flag_callback(
-        "-q,--quiet", [] { setVerbosity(Verbosity::Quiet); }, "Only errors and results");
-    app.add_flag_callback(
-        "-v,--verbose", [] { setVerbosity(Verbosity::Verbose); }, "Say more");
     AteRequest ate;
     RpeRequest rpe;
     AssociateRequest association;
@@ -259,17 +254,13 @@ int run(int argc, char** argv) {
     addMap(app, map);
     OctreeRequest octree;
     addOctree(app, octree);
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::ParseError& e) {
-        return app.exit(e);
-    }
-    return 0;
+    declareCommonOptions(app);
+    return runProgram(app, argc, argv);
 }
 
 }  // namespace
 }  // namespace rgbd_graphslam
 
 int main(int argc, char** argv) {
-    return rgbd_graphslam::runMain("rgbd-eval", [&] { return rgbd_graphslam::run(argc, argv); });
+    return rgbd_graphslam::run(argc, argv);
 }

@@ -1,8 +1,7 @@
 /** Makes the maps of a finished run again, at other resolutions, without running SLAM. */
-#include <CLI/CLI.hpp>
-
 #include <cstdio>
 
+#include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/mapping/run_folder.h"
 
@@ -14,7 +13,7 @@ struct Arguments {
     std::string folder, rawlog, destination;
     double octree_m = 0, grid_m = 0, points_m = 0, z_min_m = 0, z_max_m = 0;
     std::vector<std::string> settings;
-    bool upright = false, quiet = false, verbose = false;
+    bool upright = false;
 };
 
 /** What the command line says goes over what the run's config.ini says. */
@@ -48,7 +47,8 @@ void print(const MapSummary& summary, const std::string& folder) {
 int main(int argc, char** argv) {
     Arguments arguments;
     CLI::App app(
-        "Makes the maps of a finished rgbd-slam run again, at other resolutions, without SLAM.");
+        "Makes the maps of a finished rgbd-slam run again, at other resolutions, without SLAM.",
+        "rgbd-map");
     app.add_option("OUT", arguments.folder, "Output folder of rgbd-slam")->required();
     app.add_option("--octree", arguments.octree_m, "Resolution of the octree, m");
     app.add_option("--grid", arguments.grid_m, "Resolution of the 2-D grid, m");
@@ -63,21 +63,15 @@ int main(int argc, char** argv) {
     app.add_option("-o,--output", arguments.destination, "Folder for the maps (default: OUT)");
     app.add_flag("--upright", arguments.upright,
                  "Turn the poses upright first: for trajectories that are not of rgbd-slam");
-    app.add_flag("-q,--quiet", arguments.quiet, "Warnings and errors only");
-    app.add_flag("-v,--verbose", arguments.verbose, "Say more");
-    app.set_version_flag("--version", RGBD_VERSION);
-    CLI11_PARSE(app, argc, argv);
-    return runMain("rgbd-map", [&] {
-        setVerbosity(arguments.quiet     ? Verbosity::Quiet
-                     : arguments.verbose ? Verbosity::Verbose
-                                         : Verbosity::Normal);
+    declareCommonOptions(app);
+    return runProgram(app, argc, argv, [&] {
         const MapOptions options = optionsOf(app, arguments);
         const std::string& folder =
             arguments.destination.empty() ? arguments.folder : arguments.destination;
         MapInputs inputs = readRunFolder(arguments.folder, arguments.rawlog);
         if (arguments.upright) inputs = transformed(uprightFromWorld(inputs, options), inputs);
         const MapSummary summary = writeMaps(inputs, options, folder);
-        if (!arguments.quiet) print(summary, folder);
+        if (verbosity() != Verbosity::Quiet) print(summary, folder);
         return 0;
     });
 }

@@ -1,7 +1,7 @@
 /** rgbd-slam: a rawlog in, a folder with trajectory, graph and maps out. */
-#include <CLI/CLI.hpp>
 #include <cstdio>
 
+#include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/graphslam/slam_job.h"
@@ -15,11 +15,10 @@ struct Arguments {
     std::string ini, rawlog, out_folder;
     std::vector<std::string> assignments;
     int threads = 0, max_frames = 0;
-    bool no_maps = false, profile = false, print_config = false, quiet = false, verbose = false;
+    bool no_maps = false, profile = false, print_config = false;
 };
 
 void declare(CLI::App& app, Arguments& args) {
-    app.set_version_flag("--version", RGBD_VERSION);
     app.add_option("INI", args.ini, "Settings, e.g. ini/default.ini");
     app.add_option("RAWLOG", args.rawlog, "Rawlog with RGB-D frames");
     app.add_option("-o,--out", args.out_folder, "Folder for the results, made where missing");
@@ -31,8 +30,7 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_flag("--profile", args.profile, "Print the times of all stages");
     app.add_flag("--print-config", args.print_config,
                  "Print all settings as a commented ini, then stop");
-    app.add_flag("-q,--quiet", args.quiet, "Only errors and results");
-    app.add_flag("-v,--verbose", args.verbose, "Say more");
+    declareCommonOptions(app);
 }
 
 JobOptions optionsOf(const CLI::App& app, const Arguments& args) {
@@ -71,11 +69,9 @@ int run(const CLI::App& app, const Arguments& args) {
 
 int main(int argc, char** argv) {
     using namespace rgbd_graphslam;
-    CLI::App app("RGB-D SLAM on an MRPT rawlog: trajectory, pose graph, points, octree, grid");
+    CLI::App app("RGB-D SLAM on an MRPT rawlog: trajectory, pose graph, points, octree, grid",
+                 "rgbd-slam");
     Arguments args;
     declare(app, args);
-    CLI11_PARSE(app, argc, argv);
-    if (args.quiet) setVerbosity(Verbosity::Quiet);
-    if (args.verbose) setVerbosity(Verbosity::Verbose);
-    return runMain("rgbd-slam", [&] { return run(app, args); });
+    return runProgram(app, argc, argv, [&] { return run(app, args); });
 }

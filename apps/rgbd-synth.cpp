@@ -1,8 +1,8 @@
 /** rgbd-synth: films synthetic RGB-D sequences with exact truth. */
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 
+#include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/synth/contact_sheet.h"
@@ -50,11 +50,12 @@ void setSize(const std::string& text, synth::FilmOptions& options) {
 int main(int argc, char** argv) {
     CLI::App app(
         "Films synthetic RGB-D sequences with exact truth, in the layout of the TUM RGB-D "
-        "benchmark.");
+        "benchmark.",
+        "rgbd-synth");
     synth::FilmOptions options;
     std::string scenario, folder, size = "640x480", noise = "kinect";
     std::vector<std::string> sheet;
-    bool list_only = false, quiet = false, verbose = false;
+    bool list_only = false;
     app.add_option("scenario", scenario, "see --list");
     app.add_option("out_dir", folder, "new folder for the sequence");
     app.add_flag("--list", list_only, "describe the scenarios");
@@ -75,12 +76,8 @@ int main(int argc, char** argv) {
                    "PICTURE DIR...: show finished sequences in one picture, film nothing");
     app.add_option("--session", options.session, "of a scenario with several")
         ->capture_default_str();
-    app.add_flag("-q,--quiet", quiet, "no progress");
-    app.add_flag("-v,--verbose", verbose, "more messages");
-    app.set_version_flag("--version", RGBD_VERSION);
-    CLI11_PARSE(app, argc, argv);
-    return runMain("rgbd-synth", [&] {
-        setVerbosity(quiet ? Verbosity::Quiet : verbose ? Verbosity::Verbose : Verbosity::Normal);
+    declareCommonOptions(app);
+    return runProgram(app, argc, argv, [&] {
         if (list_only) return list(), 0;
         if (!sheet.empty()) return makeSheet(sheet), 0;
         if (scenario.empty() || folder.empty())

@@ -1,7 +1,7 @@
 /** Shows a finished run's map. */
-#include <CLI/CLI.hpp>
 #include <filesystem>
 
+#include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/viewer/snapshot.h"
 
@@ -20,8 +20,8 @@ std::string scenePath(const std::string& where) {
 int main(int argc, char** argv) {
     std::string where, picture;
     ViewOptions view;
-    bool with_ceiling = false, quiet = false, verbose = false;
-    CLI::App app("Renders the map of a finished run.");
+    bool with_ceiling = false;
+    CLI::App app("Renders the map of a finished run.", "rgbd-viewer");
     app.add_option("OUT", where, "Output folder of rgbd-slam, or a .3Dscene")->required();
     app.add_option("--snapshot", picture, "PNG to write; needs no display")->required();
     app.add_option("--width", view.width_px, "Pixels")->check(CLI::Range(16, 8192));
@@ -31,12 +31,8 @@ int main(int argc, char** argv) {
         ->check(CLI::Range(-89, 90));
     app.add_option("--zoom", view.zoom, "Above 1 is nearer")->check(CLI::PositiveNumber);
     app.add_flag("--ceiling", with_ceiling, "Leave the ceiling on");
-    app.add_flag("-q,--quiet", quiet, "Warnings and errors only");
-    app.add_flag("-v,--verbose", verbose, "Say more");
-    app.set_version_flag("--version", RGBD_VERSION);
-    CLI11_PARSE(app, argc, argv);
-    return runMain("rgbd-viewer", [&] {
-        setVerbosity(quiet ? Verbosity::Quiet : verbose ? Verbosity::Verbose : Verbosity::Normal);
+    declareCommonOptions(app);
+    return runProgram(app, argc, argv, [&] {
         view.cut_ceiling = !with_ceiling;
         renderSnapshot(loadScene(scenePath(where)), view, picture);
         sayInfo("wrote " + picture);

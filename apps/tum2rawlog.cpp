@@ -1,8 +1,8 @@
 /** tum2rawlog: a TUM RGB-D sequence becomes an MRPT rawlog. */
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 
+#include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/dataset/sequence_archive.h"
 #include "rgbd_graphslam/dataset/tum_import.h"
@@ -15,12 +15,11 @@ namespace fs = std::filesystem;
 struct Arguments {
     std::string source, rawlog, camera;
     double depth_units = 0, depth_scale = 0;
-    bool compact = false, small = false, quiet = false, verbose = false;
+    bool compact = false, small = false;
     ImportOptions import;
 };
 
 void declare(CLI::App& app, Arguments& args) {
-    app.set_version_flag("--version", RGBD_VERSION);
     app.add_option("DIR", args.source, "Folder with rgb.txt and depth.txt, or its .tgz archive")
         ->required();
     app.add_option("OUT.rawlog", args.rawlog, "Rawlog to write")->required();
@@ -49,8 +48,7 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_flag("--strict", args.import.strict, "A listed file that is missing is an error");
     app.add_flag("--skip-damaged", args.import.skip_damaged,
                  "Leave frames with a damaged image out instead of stopping");
-    app.add_flag("-q,--quiet", args.quiet, "Only errors and results");
-    app.add_flag("-v,--verbose", args.verbose, "Say more");
+    declareCommonOptions(app);
 }
 
 CameraSetup chooseCamera(const Arguments& args, const std::string& folder) {
@@ -81,7 +79,9 @@ int importFolder(const Arguments& args, const std::string& folder) {
     return 0;
 }
 
-int run(const Arguments& args) {
+int run(Arguments& args) {
+    if (args.compact) args.import.storage = RawlogStorage::Compact;
+    if (args.small) args.import.storage = RawlogStorage::Small;
     if (!isSequenceArchive(args.source)) return importFolder(args, args.source);
     const std::string beside = fs::absolute(args.rawlog).parent_path();
     sayInfo("unpacking '" + args.source + "'");
@@ -94,13 +94,9 @@ int run(const Arguments& args) {
 
 int main(int argc, char** argv) {
     using namespace rgbd_graphslam;
-    CLI::App app("Imports a sequence in the TUM RGB-D benchmark's layout into an MRPT rawlog");
+    CLI::App app("Imports a sequence in the TUM RGB-D benchmark's layout into an MRPT rawlog",
+                 "tum2rawlog");
     Arguments args;
     declare(app, args);
-    CLI11_PARSE(app, argc, argv);
-    if (args.compact) args.import.storage = RawlogStorage::Compact;
-    if (args.small) args.import.storage = RawlogStorage::Small;
-    if (args.quiet) setVerbosity(Verbosity::Quiet);
-    if (args.verbose) setVerbosity(Verbosity::Verbose);
-    return runMain("tum2rawlog", [&] { return run(args); });
+    return runProgram(app, argc, argv, [&] { return run(args); });
 }

@@ -16,6 +16,7 @@ if(NOT code EQUAL 0 OR NOT text STREQUAL "${VERSION}\n")
 endif()
 
 run(code text --no-such-option)
-if(code EQUAL 0 OR NOT text MATCHES "--no-such-option|required")
+get_filename_component(name ${APP} NAME)
+if(NOT code EQUAL 1 OR NOT text MATCHES "^${name}: error: [^\n]*(--no-such-option|required)[^\n]*; [^\n]*\n$")
     message(SEND_ERROR "--no-such-option ended with ${code} and said:\n${text}")
 endif()
