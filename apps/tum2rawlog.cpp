@@ -1,11 +1,13 @@
-/** tum2rawlog: a TUM RGB-D sequence becomes an MRPT rawlog. */
+/** tum2rawlog: an RGB-D sequence in folders becomes an MRPT rawlog. */
 #include <cstdio>
 #include <filesystem>
 
 #include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/sequence_archive.h"
-#include "rgbd_graphslam/dataset/tum_import.h"
+#include "rgbd_graphslam/dataset/sequence_import.h"
+#include "rgbd_graphslam/dataset/sequence_layout.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -13,20 +15,30 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-    std::string source, rawlog, camera;
+    std::string source, rawlog, camera, layout = "auto";
+    double rate_hz = 30;
     double depth_units = 0, depth_scale = 0;
     bool compact = false, small = false;
     ImportOptions import;
 };
 
 void declare(CLI::App& app, Arguments& args) {
-    app.add_option("DIR", args.source, "Folder with rgb.txt and depth.txt, or its .tgz archive")
-        ->required();
+    app.add_option("DIR", args.source, "Folder of the sequence, or its .tgz archive")->required();
     app.add_option("OUT.rawlog", args.rawlog, "Rawlog to write")->required();
+    std::vector<std::string> layouts = layoutNames();
+    layouts.insert(layouts.begin(), "auto");
+    app.add_option("--layout", args.layout, "How the folder is laid out; auto: found out")
+        ->check(CLI::IsMember(layouts))
+        ->type_name("NAME")
+        ->capture_default_str();
+    app.add_option("--rate", args.rate_hz,
+                   "Frames a second, for layouts that number images instead of stamping them")
+        ->check(CLI::PositiveNumber)
+        ->capture_default_str();
     app.add_option(
         "--camera", args.camera,
         "fr1, fr2, fr3, ros or an ini file with [CAMERA_PARAMS]; default: DIR/camera.ini, "
-        "else guessed from the folder's name");
+        "else the layout's, else guessed from the folder's name");
     app.add_option("--depth-units", args.depth_units,
                    "Depth units a metre; default: the camera file's, else 5000")
         ->check(CLI::PositiveNumber);
@@ -51,17 +63,16 @@ void declare(CLI::App& app, Arguments& args) {
     declareCommonOptions(app);
 }
 
-CameraSetup chooseCamera(const Arguments& args, const std::string& folder) {
-    if (!args.camera.empty()) {
-        const auto known = cameraByName(args.camera);
-        return known ? *known : readCameraFile(args.camera);
+CameraSetup guessedCamera(const RgbdSequence& sequence, SequenceLayout layout) {
+    if (const auto camera = layoutCamera(sequence, layout)) {
+        sayInfo("camera: that of " + camera->name);
+        return *camera;
     }
-    const fs::path file = fs::path(folder) / "camera.ini";
-    if (fs::exists(file)) {
-        sayInfo("camera: " + file.string());
-        return readCameraFile(file);
+    if (layout == SequenceLayout::RealSense) {
+        throw Error("'" + sequence.folder + "' has no camera_intrinsic.json",
+                    "give the camera with --camera");
     }
-    if (const auto guess = cameraByFolderName(fs::canonical(folder).filename())) {
+    if (const auto guess = cameraByFolderName(fs::canonical(sequence.folder).filename())) {
         sayInfo("camera: " + guess->name + ", by the folder's name");
         return *guess;
     }
@@ -69,12 +80,26 @@ CameraSetup chooseCamera(const Arguments& args, const std::string& folder) {
     return *cameraByName("ros");
 }
 
+CameraSetup chooseCamera(const Arguments& args, const RgbdSequence& sequence,
+                         SequenceLayout layout) {
+    if (!args.camera.empty()) {
+        const auto known = cameraByName(args.camera);
+        return known ? *known : readCameraFile(args.camera);
+    }
+    const fs::path file = fs::path(sequence.folder) / "camera.ini";
+    if (!fs::exists(file)) return guessedCamera(sequence, layout);
+    sayInfo("camera: " + file.string());
+    return readCameraFile(file);
+}
+
 int importFolder(const Arguments& args, const std::string& folder) {
-    const TumSequence sequence = readTumSequence(folder);
-    CameraSetup setup = chooseCamera(args, folder);
+    const SequenceLayout layout =
+        args.layout == "auto" ? detectLayout(folder) : layoutByName(args.layout);
+    const RgbdSequence sequence = readSequence(folder, layout, args.rate_hz);
+    CameraSetup setup = chooseCamera(args, sequence, layout);
     if (args.depth_units > 0) setup.depth_units = args.depth_units;
     if (args.depth_scale > 0) setup.depth_scale = args.depth_scale;
-    const ImportReport report = importTumSequence(sequence, setup, args.rawlog, args.import);
+    const ImportReport report = importSequence(sequence, setup, args.rawlog, args.import);
     std::fputs(toText(report).c_str(), stdout);
     return 0;
 }
@@ -94,8 +119,10 @@ int run(Arguments& args) {
 
 int main(int argc, char** argv) {
     using namespace rgbd_graphslam;
-    CLI::App app("Imports a sequence in the TUM RGB-D benchmark's layout into an MRPT rawlog",
-                 "tum2rawlog");
+    CLI::App app(
+        "Imports a sequence of the TUM RGB-D benchmark, or in a similar layout, into an MRPT "
+        "rawlog",
+        "tum2rawlog");
     Arguments args;
     declare(app, args);
     return runProgram(app, argc, argv, [&] { return run(args); });

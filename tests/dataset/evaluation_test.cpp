@@ -11,7 +11,8 @@
 #include <sstream>
 
 #include "../support/tum_folder.h"
-#include "rgbd_graphslam/dataset/tum_import.h"
+#include "rgbd_graphslam/dataset/sequence_import.h"
+#include "rgbd_graphslam/dataset/tum_sequence.h"
 #include "rgbd_graphslam/evaluation/commands.h"
 
 namespace rgbd_graphslam {
@@ -89,7 +90,7 @@ TEST_F(EvaluationData, digitsAreThoseOfTheTumTools) {
 TEST_F(EvaluationData, truthOfARawlogGivesTheSameDigits) {
     const TestFolder folder;
     const std::string rawlog = folder / "truth.rawlog";
-    importTumSequence(readTumSequence(file("tum-fr1-xyz-4")), CameraSetup(), rawlog, {});
+    importSequence(readTumSequence(file("tum-fr1-xyz-4")), CameraSetup(), rawlog, {});
     AteRequest request;
     request.files = {trajectory("freiburg1_xyz-rgbdslam.txt"),
                      trajectory("freiburg1_xyz-groundtruth.txt")};

@@ -7,7 +7,8 @@
 
 #include "../support/tum_folder.h"
 #include "rgbd_graphslam/core/console.h"
-#include "rgbd_graphslam/dataset/tum_import.h"
+#include "rgbd_graphslam/dataset/sequence_import.h"
+#include "rgbd_graphslam/dataset/tum_sequence.h"
 #include "rgbd_graphslam/graphslam/slam_job.h"
 
 namespace rgbd_graphslam {
@@ -55,7 +56,7 @@ class SlamOnClip : public testing::TestWithParam<Clip> {
         job_.rawlog = folder_ / "clip.rawlog";
         job_.out_folder = folder_ / "out";
         job_.options.run.dense_maps = false;
-        importTumSequence(readTumSequence(clip), GetParam().setup, job_.rawlog, {});
+        importSequence(readTumSequence(clip), GetParam().setup, job_.rawlog, {});
     }
     std::string trajectoryWith(int threads) {
         job_.options.run.threads = threads;

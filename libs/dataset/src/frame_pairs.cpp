@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 /** Images whose file exists, in order of time, each stamp once. */
-std::vector<ListedImage> usableImages(const TumSequence& sequence,
+std::vector<ListedImage> usableImages(const RgbdSequence& sequence,
                                       const std::vector<ListedImage>& images, bool strict,
                                       ImageTally& tally) {
     tally.listed = images.size();
@@ -60,7 +60,7 @@ void tallyLeftOver(const std::vector<double>& own, const std::vector<bool>& pair
 
 }  // namespace
 
-std::vector<FramePair> pairUp(const TumSequence& sequence, const ImportOptions& options,
+std::vector<FramePair> pairUp(const RgbdSequence& sequence, const ImportOptions& options,
                               ImportReport& report) {
     const auto color = usableImages(sequence, sequence.color, options.strict, report.color);
     const auto depth = usableImages(sequence, sequence.depth, options.strict, report.depth);

@@ -15,7 +15,7 @@
 namespace rgbd_graphslam {
 namespace {
 
-void addTruth(const TumSequence& sequence, const CameraSetup& setup, SensorEntries& entries) {
+void addTruth(const RgbdSequence& sequence, const CameraSetup& setup, SensorEntries& entries) {
     const SE3 T_cam_base = T_optical_from_mrpt * setup.T_base_sensor.inverse();
     for (const auto& [stamp_s, T_world_cam] : sequence.truth) {
         auto pose = mrpt::obs::CObservationRobotPose::Create();
@@ -41,7 +41,7 @@ mrpt::obs::CObservationIMU::Ptr imuReading(const CameraSetup& setup, double stam
 }
 
 /** Readings of accelerometer and gyroscope at the same stamp share an observation. */
-void addImu(const TumSequence& sequence, const CameraSetup& setup, SensorEntries& entries) {
+void addImu(const RgbdSequence& sequence, const CameraSetup& setup, SensorEntries& entries) {
     using namespace mrpt::obs;
     const ImuAxes linear = {IMU_X_ACC, IMU_Y_ACC, IMU_Z_ACC}, angular = {IMU_WX, IMU_WY, IMU_WZ};
     std::map<long long, CObservationIMU::Ptr> without_angular;
@@ -59,7 +59,7 @@ void addImu(const TumSequence& sequence, const CameraSetup& setup, SensorEntries
     }
 }
 
-void addOdometry(const TumSequence& sequence, SensorEntries& entries) {
+void addOdometry(const RgbdSequence& sequence, SensorEntries& entries) {
     for (const auto& sample : sequence.odometry) {
         auto odometry = mrpt::obs::CObservationOdometry::Create();
         odometry->sensorLabel = odometry_label;
@@ -71,7 +71,7 @@ void addOdometry(const TumSequence& sequence, SensorEntries& entries) {
 
 }  // namespace
 
-SensorEntries sensorEntries(const TumSequence& sequence, const CameraSetup& setup,
+SensorEntries sensorEntries(const RgbdSequence& sequence, const CameraSetup& setup,
                             ImportReport& report) {
     SensorEntries entries;
     addTruth(sequence, setup, entries);

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "rgbd_graphslam/dataset/tum_import.h"
+#include "rgbd_graphslam/dataset/sequence_import.h"
 
 namespace rgbd_graphslam {
 
@@ -12,7 +12,7 @@ namespace rgbd_graphslam {
 using SensorEntries = std::vector<mrpt::obs::CObservation::Ptr>;
 
 /** Ground truth, IMU and odometry of a sequence; counted in `report`. */
-SensorEntries sensorEntries(const TumSequence& sequence, const CameraSetup& setup,
+SensorEntries sensorEntries(const RgbdSequence& sequence, const CameraSetup& setup,
                             ImportReport& report);
 
 }  // namespace rgbd_graphslam

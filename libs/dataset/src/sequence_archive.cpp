@@ -9,6 +9,7 @@
 
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/sequence_layout.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;
@@ -85,11 +86,12 @@ UnpackedArchive::~UnpackedArchive() {
 }
 
 std::string UnpackedArchive::sequenceFolder() const {
+    if (layoutOf(folder_)) return folder_;
     for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
-        if (entry.path().filename() == "rgb.txt") return entry.path().parent_path().string();
+        if (layoutOf(entry.path().string())) return entry.path().string();
     }
-    throw Error("there is no rgb.txt in the archive '" + archive_ + "'",
-                "give an archive of the TUM RGB-D benchmark");
+    throw Error("there is no sequence in the archive '" + archive_ + "'",
+                "give an archive of the TUM RGB-D benchmark or another with RGB-D images");
 }
 
 }  // namespace rgbd_graphslam

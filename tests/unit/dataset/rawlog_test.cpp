@@ -17,8 +17,9 @@
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/dataset/sequence_import.h"
 #include "rgbd_graphslam/dataset/tum_export.h"
-#include "rgbd_graphslam/dataset/tum_import.h"
+#include "rgbd_graphslam/dataset/tum_sequence.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -64,8 +65,8 @@ class RawlogTest : public ::testing::Test {
     ImportReport import(RawlogStorage storage = RawlogStorage::Embedded) {
         ImportOptions options;
         options.storage = storage;
-        return importTumSequence(readTumSequence(folder_ / "s"),
-                                 readCameraFile(folder_ / "s/camera.ini"), rawlog(), options);
+        return importSequence(readTumSequence(folder_ / "s"),
+                              readCameraFile(folder_ / "s/camera.ini"), rawlog(), options);
     }
 
     std::string rawlog() const { return folder_ / "s.rawlog"; }
@@ -92,8 +93,8 @@ TEST_P(RawlogStorageTest, imagesKeepTheirBits) {
 TEST_P(RawlogStorageTest, exportGivesTheFolderBack) {
     import(GetParam());
     exportTumSequence(rawlog(), folder_ / "back", {});
-    const TumSequence before = readTumSequence(folder_ / "s");
-    const TumSequence after = readTumSequence(folder_ / "back");
+    const RgbdSequence before = readTumSequence(folder_ / "s");
+    const RgbdSequence after = readTumSequence(folder_ / "back");
     ASSERT_EQ(after.color.size(), before.color.size());
     ASSERT_EQ(after.depth.size(), before.depth.size());
     for (int i = 0; i < frame_count; ++i) {
@@ -199,8 +200,8 @@ TEST_F(RawlogTest, truthIsThatOfTheCameraAgain) {
 TEST_F(RawlogTest, motionSensorsKeepTheirReadings) {
     import();
     exportTumSequence(rawlog(), folder_ / "back", {});
-    const TumSequence before = readTumSequence(folder_ / "s");
-    const TumSequence after = readTumSequence(folder_ / "back");
+    const RgbdSequence before = readTumSequence(folder_ / "s");
+    const RgbdSequence after = readTumSequence(folder_ / "back");
     const auto expectSame = [](const auto& a, const auto& b) {
         ASSERT_EQ(a.size(), b.size());
         for (std::size_t i = 0; i < a.size(); ++i) {
@@ -239,7 +240,7 @@ TEST_F(RawlogTest, fragmentsAreCutByTimeAndThinned) {
     options.to_s = 0.11;
     options.every = 2;
     EXPECT_EQ(exportTumSequence(rawlog(), folder_ / "part", options).frames, 2u);
-    const TumSequence part = readTumSequence(folder_ / "part");
+    const RgbdSequence part = readTumSequence(folder_ / "part");
     EXPECT_EQ(part.color.at(0).file, small_sequence::colorFile(1));
     EXPECT_EQ(part.color.at(1).file, small_sequence::colorFile(3));
     EXPECT_TRUE(part.acceleration.empty()) << "all before the first frame";
@@ -275,10 +276,10 @@ TEST(RawlogOfRealFrames, roundTripKeepsEveryBit) {
     if (!std::filesystem::exists(clip)) GTEST_SKIP() << "no data in " << clip;
     setVerbosity(Verbosity::Quiet);
     const TestFolder folder;
-    const TumSequence before = readTumSequence(clip);
-    importTumSequence(before, *cameraByFolderName(clip), folder / "c.rawlog", {});
+    const RgbdSequence before = readTumSequence(clip);
+    importSequence(before, *cameraByFolderName(clip), folder / "c.rawlog", {});
     exportTumSequence(folder / "c.rawlog", folder / "back", {});
-    const TumSequence after = readTumSequence(folder / "back");
+    const RgbdSequence after = readTumSequence(folder / "back");
     ASSERT_EQ(after.depth.size(), 3u) << "one depth image is missing in the source";
     for (std::size_t i = 0; i < after.depth.size(); ++i) {
         EXPECT_EQ(after.depth[i].file, before.depth[i].file);
@@ -301,13 +302,12 @@ TEST(RawlogOfRealFrames, roundTripKeepsEveryBit) {
 }
 
 TEST_F(RawlogTest, importIsTheSameWithAnyNumberOfThreads) {
-    const TumSequence sequence = readTumSequence(folder_ / "s");
+    const RgbdSequence sequence = readTumSequence(folder_ / "s");
     const CameraSetup setup = readCameraFile(folder_ / "s/camera.ini");
     ImportOptions options;
     for (const int threads : {1, 4}) {
         options.threads = threads;
-        importTumSequence(sequence, setup, folder_ / (std::to_string(threads) + ".rawlog"),
-                          options);
+        importSequence(sequence, setup, folder_ / (std::to_string(threads) + ".rawlog"), options);
     }
     EXPECT_EQ(readText(folder_ / "1.rawlog"), readText(folder_ / "4.rawlog"));
 }

@@ -31,7 +31,7 @@ TEST(TumSequence, listsAreReadWithTheirSensors) {
     folder.write("s/accelerometer.txt", "# t ax ay az\n1 -0.478957 8.010560 -4.166928\n");
     folder.write("s/gyroscope.txt", "1,0.1,0.2,0.3\n");
     folder.write("s/odometry.txt", "1 0.5 -0.5 3.1\n2 0.6 -0.5 -3.1\n");
-    const TumSequence sequence = readTumSequence(folder / "s");
+    const RgbdSequence sequence = readTumSequence(folder / "s");
     ASSERT_EQ(sequence.color.size(), 2u);
     EXPECT_EQ(sequence.color[0].stamp_s, 1305031102.175304);
     EXPECT_EQ(sequence.color[0].file, "rgb/a b.png");
@@ -85,7 +85,7 @@ TEST(TumSequence, pairsOfFr1DeskAreThePublishedOnes) {
     const std::string folder =
         std::string(data ? data : RGBD_SOURCE_DIR "/../shared/data") + "/trajectories/";
     if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no data in " << folder;
-    const TumSequence sequence = readTumSequence(folder + "fr1_desk_lists");
+    const RgbdSequence sequence = readTumSequence(folder + "fr1_desk_lists");
     std::vector<double> color, depth;
     for (const auto& image : sequence.color) color.push_back(image.stamp_s);
     for (const auto& image : sequence.depth) depth.push_back(image.stamp_s);

@@ -19,7 +19,7 @@ class UnpackedArchive {
     UnpackedArchive(const UnpackedArchive&) = delete;
     UnpackedArchive& operator=(const UnpackedArchive&) = delete;
 
-    /** The unpacked folder that holds rgb.txt.
+    /** The unpacked folder that holds the sequence, see layoutOf().
      *  \throws Error when there is none */
     std::string sequenceFolder() const;
 

@@ -5,7 +5,7 @@
 
 #include "rgbd_graphslam/dataset/camera_file.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
-#include "rgbd_graphslam/dataset/tum_sequence.h"
+#include "rgbd_graphslam/dataset/rgbd_sequence.h"
 
 namespace rgbd_graphslam {
 
@@ -53,7 +53,7 @@ std::string toText(const ImportReport& report);
  * stamps are kept as DepthStamps. Shows progress. \throws Error when nothing can be paired, an
  * image is of the wrong kind or size, a damaged or (if strict) missing image is met, or the rawlog
  * cannot be written */
-ImportReport importTumSequence(const TumSequence& sequence, const CameraSetup& setup,
-                               const std::string& rawlog_path, const ImportOptions& options);
+ImportReport importSequence(const RgbdSequence& sequence, const CameraSetup& setup,
+                            const std::string& rawlog_path, const ImportOptions& options);
 
 }  // namespace rgbd_graphslam

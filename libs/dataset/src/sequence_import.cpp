@@ -1,4 +1,4 @@
-#include "rgbd_graphslam/dataset/tum_import.h"
+#include "rgbd_graphslam/dataset/sequence_import.h"
 
 #include <mrpt/obs/CObservationComment.h>
 
@@ -49,21 +49,22 @@ void checkSize(const std::string& file, const cv::Mat& pixels, const Camera& cam
                 "colour and depth must have one size, which --camera FILE.ini gives as resolution");
 }
 
-LoadedFrame load(const std::string& folder, const FramePair& pair, const Camera& camera) {
-    const std::string color_file = fs::path(folder) / pair.color.file;
-    const std::string depth_file = fs::path(folder) / pair.depth.file;
-    const DecodedImage color = readColorImage(color_file), depth = readDepthImage(depth_file);
+LoadedFrame load(const RgbdSequence& sequence, const FramePair& pair, const Camera& camera) {
+    const std::string color_file = fs::path(sequence.folder) / pair.color.file;
+    const std::string depth_file = fs::path(sequence.folder) / pair.depth.file;
+    DecodedImage color = readColorImage(color_file), depth = readDepthImage(depth_file);
     const std::string damage = color.damage.empty() ? depth.damage : color.damage;
     if (!damage.empty()) return {color_file, {}, {}, damage};
     checkSize(color_file, color.pixels, camera);
     checkSize(depth_file, depth.pixels, camera);
+    if (sequence.no_reading != 0) depth.pixels.setTo(0, depth.pixels == sequence.no_reading);
     return {color_file, color.pixels, depth.pixels, {}};
 }
 
 /** Writes one import's entries in order of time. */
 class Import {
   public:
-    Import(const TumSequence& sequence, const CameraSetup& setup, const ImportOptions& options)
+    Import(const RgbdSequence& sequence, const CameraSetup& setup, const ImportOptions& options)
         : sequence_(sequence),
           setup_(setup),
           options_(options),
@@ -78,7 +79,7 @@ class Import {
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
             for (; next_load < pairs_.size() && loading.size() < ahead(); ++next_load) {
                 loading.push([this, &pair = pairs_[next_load]] {
-                    return load(sequence_.folder, pair, setup_.camera);
+                    return load(sequence_, pair, setup_.camera);
                 });
             }
             writeSensorsUntil(toMrptTime(pairs_[i].color.stamp_s), next_sensor, writer);
@@ -136,7 +137,7 @@ class Import {
         ++report_.damaged;
     }
 
-    const TumSequence& sequence_;
+    const RgbdSequence& sequence_;
     const CameraSetup& setup_;
     const ImportOptions& options_;
     ImportReport report_;
@@ -179,8 +180,8 @@ std::string toText(const ImportReport& report) {
     return text + line;
 }
 
-ImportReport importTumSequence(const TumSequence& sequence, const CameraSetup& setup,
-                               const std::string& rawlog_path, const ImportOptions& options) {
+ImportReport importSequence(const RgbdSequence& sequence, const CameraSetup& setup,
+                            const std::string& rawlog_path, const ImportOptions& options) {
     const auto start = std::chrono::steady_clock::now();
     Import import(sequence, setup, options);
     writeRawlog(rawlog_path, options.storage, [&](RawlogWriter& writer) { import.write(writer); });

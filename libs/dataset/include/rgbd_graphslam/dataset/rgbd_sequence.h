@@ -1,0 +1,48 @@
+/** What a recorded sequence consists of, whatever its files look like. */
+#pragma once
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/geometry/trajectory.h"
+
+namespace rgbd_graphslam {
+
+/** An image file and when it was taken. */
+struct ListedImage {
+    double stamp_s = 0;
+    /** Relative to the sequence's folder. */
+    std::string file;
+};
+
+/** One line of a sensor's text file. */
+struct StampedVector {
+    double stamp_s = 0;
+    Eigen::Vector3d value;
+};
+
+/** The lists of a sequence, in file order; images are not read. */
+struct RgbdSequence {
+    std::string folder;
+    std::vector<ListedImage> color, depth;
+    /** Depth readings of this value are none, as those of 0 are. */
+    std::uint16_t no_reading = 0;
+    /** Poses of the colour camera's optical frame. */
+    Trajectory truth;
+    /** Accelerometer (m/s^2) and gyroscope (rad/s), in the IMU's axes. */
+    std::vector<StampedVector> acceleration, angular_velocity;
+    /** x (m), y (m), heading (rad) of the robot's base. */
+    std::vector<StampedVector> odometry;
+};
+
+/** How orderly stamps come. */
+struct StampOrder {
+    /** Stamps earlier than the one before them. */
+    std::size_t backwards = 0;
+    /** Stamps that occurred before. */
+    std::size_t repeated = 0;
+};
+StampOrder stampOrder(const std::vector<ListedImage>& images);
+
+}  // namespace rgbd_graphslam

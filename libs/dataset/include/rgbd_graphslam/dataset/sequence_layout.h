@@ -1,0 +1,57 @@
+/** Sequence folders as different benchmarks and recorders lay them out. */
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/dataset/camera_file.h"
+#include "rgbd_graphslam/dataset/rgbd_sequence.h"
+
+namespace rgbd_graphslam {
+
+enum class SequenceLayout {
+    /** rgb.txt and depth.txt, see tum_sequence.h. */
+    Tum,
+    /** ICL-NUIM, "TUM RGB-D compatible": associations.txt (`number depth/N.png number rgb/N.png`)
+     *  and *.gt.freiburg. Its renderer's camera looks with y up, in a left-handed world; the truth
+     *  is mirrored on reading, so that a camera with y down fits to it. */
+    Icl,
+    /** Microsoft 7-Scenes: frame-N.color.png, frame-N.depth.png (mm, 65535 is no reading) and
+     *  frame-N.pose.txt (4x4, camera to world). Its depth is not registered to colour. */
+    SevenScenes,
+    /** Bonn RGB-D Dynamic: as Tum, with one camera for all sequences. */
+    Bonn,
+    /** ETH3D SLAM: as Tum, with the camera in calibration.txt (`fx fy cx cy`). */
+    Eth3d,
+    /** Folders color/ and depth/ (mm), where present poses/ or pose/ with a 4x4 matrix (camera to
+     *  world) for each colour image, or groundtruth.txt, and Open3D's camera_intrinsic.json. */
+    RealSense
+};
+
+/** Names of the layouts in the order of the enumeration, as they are typed. */
+const std::vector<std::string>& layoutNames();
+
+/** \throws Error for another name */
+SequenceLayout layoutByName(const std::string& name);
+
+/** The layout that the names in a folder speak of. */
+std::optional<SequenceLayout> layoutOf(const std::string& folder);
+
+/** As layoutOf.
+ *  \throws Error when there is no such folder or it is of none of the layouts */
+SequenceLayout detectLayout(const std::string& folder);
+
+/** Reads the lists of a folder.
+ *  \param rate_hz frames a second, for layouts that number their images instead of stamping them: a
+ *         name such as `frame-000012` is taken at 12 / rate_hz, one such as `1305031102.175304` at
+ *         that time
+ *  \throws Error when the folder is not of that layout, or naming file and line that do not have
+ *          the layout's form */
+RgbdSequence readSequence(const std::string& folder, SequenceLayout layout, double rate_hz);
+
+/** The camera that a benchmark publishes for all its sequences or puts into the sequence's folder;
+ *  nothing for the TUM benchmark, whose cameras go by the names of sequences.
+ *  \throws Error when a calibration in the folder cannot be read */
+std::optional<CameraSetup> layoutCamera(const RgbdSequence& sequence, SequenceLayout layout);
+
+}  // namespace rgbd_graphslam

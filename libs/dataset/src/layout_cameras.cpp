@@ -1,0 +1,103 @@
+/** Cameras of benchmarks other than TUM's, and calibrations in their formats. */
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "list_file.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/image_file.h"
+#include "rgbd_graphslam/dataset/sequence_layout.h"
+
+namespace rgbd_graphslam {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr double millimetres = 1000;
+
+CameraSetup pinhole(const std::string& name, double fx, double fy, double cx, double cy,
+                    double depth_units) {
+    CameraSetup setup;
+    setup.name = name;
+    setup.camera.fx = fx;
+    setup.camera.fy = fy;
+    setup.camera.cx = cx;
+    setup.camera.cy = cy;
+    setup.depth_units = depth_units;
+    return setup;
+}
+
+/** The camera that the benchmark's page gives for all sequences. */
+CameraSetup bonnCamera() {
+    CameraSetup setup = pinhole("bonn", 542.822841, 542.576870, 315.593520, 237.756098, 5000);
+    setup.camera.distortion = {0.039903, -0.099343, -0.000730, -0.000144, 0};
+    return setup;
+}
+
+void takeSize(const RgbdSequence& sequence, Camera& camera) {
+    if (sequence.color.empty()) return;
+    const auto image = readColorImage(fs::path(sequence.folder) / sequence.color.front().file);
+    if (!image.damage.empty()) throw Error("image " + image.damage, "fetch the sequence again");
+    camera.width = image.pixels.cols;
+    camera.height = image.pixels.rows;
+}
+
+CameraSetup eth3dCamera(const RgbdSequence& sequence) {
+    const std::string form = "fx fy cx cy";
+    std::optional<CameraSetup> setup;
+    const std::string path = fs::path(sequence.folder) / "calibration.txt";
+    forEachLine(path, [&](Line& line) {
+        double values[4];
+        for (double& value : values) value = line.realNumber(form);
+        if (values[0] <= 0 || values[1] <= 0) line.refuse("fx and fy must be positive", form);
+        setup = pinhole("calibration.txt", values[0], values[1], values[2], values[3], 5000);
+    });
+    if (!setup) throw Error("'" + path + "' is empty", "its line must be '" + form + "'");
+    takeSize(sequence, setup->camera);
+    return *setup;
+}
+
+/** The file that Open3D's recorder writes: width, height and the matrix of intrinsics, column by
+ *  column. */
+CameraSetup open3dCamera(const std::string& path) {
+    try {
+        std::ifstream in(path);
+        const auto json = nlohmann::json::parse(in);
+        const std::vector<double> K = json.at("intrinsic_matrix");
+        CameraSetup setup =
+            pinhole(fs::path(path).filename(), K.at(0), K.at(4), K.at(6), K.at(7), millimetres);
+        setup.camera.width = json.at("width");
+        setup.camera.height = json.at("height");
+        if (setup.camera.fx > 0 && setup.camera.fy > 0) return setup;
+    } catch (const nlohmann::json::exception&) {
+    } catch (const std::out_of_range&) {
+    }
+    throw Error("'" + path + "' has no width, height and intrinsic_matrix of 9 numbers",
+                "give the camera with --camera");
+}
+
+std::optional<CameraSetup> realSenseCamera(const std::string& folder) {
+    const fs::path path = fs::path(folder) / "camera_intrinsic.json";
+    if (!fs::exists(path)) return std::nullopt;
+    return open3dCamera(path);
+}
+
+}  // namespace
+
+std::optional<CameraSetup> layoutCamera(const RgbdSequence& sequence, SequenceLayout layout) {
+    switch (layout) {
+        case SequenceLayout::Icl:
+            return pinhole("icl", 481.2, 480, 319.5, 239.5, 5000);
+        case SequenceLayout::SevenScenes:
+            return pinhole("7-scenes", 585, 585, 320, 240, millimetres);
+        case SequenceLayout::Bonn:
+            return bonnCamera();
+        case SequenceLayout::Eth3d:
+            return eth3dCamera(sequence);
+        case SequenceLayout::RealSense:
+            return realSenseCamera(sequence.folder);
+        default:
+            return std::nullopt;
+    }
+}
+
+}  // namespace rgbd_graphslam
