@@ -1,9 +1,11 @@
 /** Makes the maps of a finished run again, at other resolutions, without running SLAM. */
 #include <cstdio>
+#include <filesystem>
 
 #include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/mapping/run_folder.h"
+#include "rgbd_graphslam/report/run_report.h"
 
 using namespace rgbd_graphslam;
 
@@ -71,6 +73,9 @@ int main(int argc, char** argv) {
         MapInputs inputs = readRunFolder(arguments.folder, arguments.rawlog);
         if (arguments.upright) inputs = transformed(uprightFromWorld(inputs, options), inputs);
         const MapSummary summary = writeMaps(inputs, options, folder);
+        if (std::filesystem::exists(arguments.folder + "/report.html")) {
+            writeRunReport(arguments.folder, folder);
+        }
         if (verbosity() != Verbosity::Quiet) print(summary, folder);
         return 0;
     });

@@ -39,7 +39,10 @@ Json stagesJson(const JobReport& report) {
 
 Json ateJson(const JobReport& report) {
     if (!report.ate_rmse_m) return nullptr;
-    return {{"rmse_m", *report.ate_rmse_m}, {"pairs", report.ate_pairs}};
+    return {
+        {"rmse_m", *report.ate_rmse_m},
+        {"pairs", report.ate_pairs},
+        {"fitted_scale", report.ate_fitted_scale ? Json(*report.ate_fitted_scale) : Json(nullptr)}};
 }
 
 /** In order of the total time they took. */
@@ -83,6 +86,7 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"rawlog", std::filesystem::absolute(job.rawlog).lexically_normal().string()},
         {"interrupted", report.interrupted},
         {"damage", report.damage.empty() ? Json(nullptr) : Json(report.damage)},
+        {"warnings", report.warnings},
         {"frames", report.frames},
         {"tracked", report.tracked},
         {"recovered", report.recovered},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <opencv2/imgcodecs.hpp>
 
 #include "interruption.h"
 #include "output_texts.h"
@@ -10,10 +11,13 @@
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/progress.h"
-#include "rgbd_graphslam/evaluation/ate.h"
+#include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/graphslam/frame_stream.h"
 #include "rgbd_graphslam/graphslam/graph_slam_session.h"
 #include "rgbd_graphslam/mapping/map_builder.h"
+#include "rgbd_graphslam/report/keyframe_sheet.h"
+#include "rgbd_graphslam/report/run_report.h"
+#include "truth_comparison.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -75,6 +79,7 @@ class Job {
   private:
     void track();
     void trackOne(const StreamedFrame& frame);
+    void noteKeyframe(int keyframe, const StreamedFrame& frame);
     std::optional<StreamedFrame> nextFrame();
     bool finished() const;
     std::string progressNote() const;
@@ -87,15 +92,19 @@ class Job {
     MapInputs mapInputs() const;
     void write();
     void writePoses(const MapInputs& upright, const SE3& T_up_world) const;
+    void writeReport();
     std::string path(const char* name) const { return job_.out_folder + "/" + name; }
 
     const SlamJob& job_;
     FrameStream stream_;
     GraphSlamSession session_;
     Interruption interruption_;
+    WarningRecord warnings_;
     JobReport report_;
-    std::optional<double> last_stamp_s_;
+    std::optional<double> first_stamp_s_, last_stamp_s_;
     std::vector<SE3> T_previous_keyframe_;  // one a keyframe, the identity for the first
+    KeyframeSheet keyframe_sheet_;
+    Trajectory truth_;  // beside the estimate, in its world
 };
 
 void Job::track() {
@@ -138,11 +147,17 @@ void Job::trackOne(const StreamedFrame& frame) {
         return;
     }
     last_stamp_s_ = stamp_s;
+    if (!first_stamp_s_) first_stamp_s_ = stamp_s;
     ++report_.frames;
     const auto keyframe = session_.step(frame.observation, frame.prepared).keyframe;
-    if (!keyframe) return;
-    T_previous_keyframe_.push_back(*keyframe > 0 ? session_.slam().odometryEdge(*keyframe).T_from_to
-                                                 : SE3());
+    if (keyframe) noteKeyframe(*keyframe, frame);
+}
+
+void Job::noteKeyframe(int keyframe, const StreamedFrame& frame) {
+    T_previous_keyframe_.push_back(keyframe > 0 ? session_.slam().odometryEdge(keyframe).T_from_to
+                                                : SE3());
+    keyframe_sheet_.add(keyframe, *last_stamp_s_ - *first_stamp_s_,
+                        toRgbdImage(frame.observation).color);
 }
 
 std::string Job::progressNote() const {
@@ -179,15 +194,13 @@ void Job::countFrames() {
 
 void Job::evaluate(const Trajectory& estimate) {
     Trajectory truth = stream_.truth();
-    if (truth.empty()) return;
     for (StampedPose& pose : truth) pose.T_world_cam = pose.T_world_cam * session_.T_base_cam();
-    try {
-        const AteResult ate = evaluateAte(estimate, truth);
-        report_.ate_rmse_m = ate.translation_m.rmse;
-        report_.ate_pairs = ate.pairs.size();
-    } catch (const Error& e) {
-        sayWarning(std::string("no ATE: ") + e.what());
-    }
+    const auto comparison = compareWithTruth(estimate, truth);
+    if (!comparison) return;
+    report_.ate_rmse_m = comparison->ate.translation_m.rmse;
+    report_.ate_pairs = comparison->ate.pairs.size();
+    report_.ate_fitted_scale = comparison->ate.fitted_scale;
+    truth_ = comparison->truth;
 }
 
 void Job::collectStages() {
@@ -219,7 +232,21 @@ void Job::writePoses(const MapInputs& upright, const SE3& T_up_world) const {
         writeTextAtomically(path("keyframes_before_loops.txt"),
                             toTumText(upright.keyframes_before_loops));
     }
+    if (!truth_.empty()) {
+        Trajectory truth = truth_;
+        for (StampedPose& pose : truth) pose.T_world_cam = T_up_world * pose.T_world_cam;
+        writeTextAtomically(path("truth.txt"), toTumText(truth));
+    }
     session_.writeGraph(path("graph.graph"), T_up_world);
+}
+
+void Job::writeReport() {
+    const Stopwatch watch;
+    writeAtomically(path("keyframes.jpg"), [&](const std::string& temporary) {
+        return cv::imwrite(temporary, keyframe_sheet_.picture(), {cv::IMWRITE_JPEG_QUALITY, 80});
+    });
+    writeRunReport(job_.out_folder, job_.out_folder);
+    sayDetail("report.html took " + std::to_string(1e3 * watch.seconds()) + " ms");
 }
 
 void Job::write() {
@@ -238,7 +265,9 @@ void Job::write() {
     if (job_.options.run.dense_maps) writeMaps(upright, job_.options.maps, job_.out_folder);
     report_.maps_wall_s = watch.seconds();
     report_.peak_memory_mb = peakMemoryMb();
+    report_.warnings = warnings_.warnings();
     writeTextAtomically(path("summary.json"), summaryJson(job_, report_));
+    writeReport();
 }
 
 }  // namespace

@@ -73,6 +73,32 @@ TEST_F(JobOnARawlog, writesAFolderThatDescribesItself) {
     EXPECT_TRUE(fs::exists(job_.out_folder + "/graph.graph"));
 }
 
+TEST_F(JobOnARawlog, truthIsWrittenWhereThePathLies) {
+    runSlamJob(job_);
+    const Trajectory truth = readTumTrajectory(job_.out_folder + "/truth.txt");
+    const Trajectory path = readTumTrajectory(job_.out_folder + "/trajectory.txt");
+    ASSERT_EQ(truth.size(), path.size());
+    for (std::size_t i = 0; i < path.size(); ++i) {
+        EXPECT_EQ(truth[i].stamp_s, path[i].stamp_s);
+        EXPECT_LT((truth[i].T_world_cam.t - path[i].T_world_cam.t).norm(), 0.02);
+        EXPECT_LT((truth[i].T_world_cam.R - path[i].T_world_cam.R).norm(), 0.05);
+    }
+}
+
+TEST_F(JobOnARawlog, reportTellsOfTheRunAndItsWarnings) {
+    auto film = filmRoundTrip(frames, turn_rad);
+    film[10]->timestamp = film[9]->timestamp;
+    write(film);
+    runSlamJob(job_);
+    const auto summary = nlohmann::json::parse(output("summary.json"));
+    ASSERT_FALSE(summary["warnings"].empty());
+    EXPECT_NE(summary["warnings"][0].get<std::string>().find("not later"), std::string::npos);
+    const std::string page = output("report.html");
+    EXPECT_NE(page.find("is not later than the one before"), std::string::npos);
+    EXPECT_NE(page.find("29 / 29"), std::string::npos);
+    EXPECT_NE(page.find("data:image/jpeg;base64,"), std::string::npos);  // of keyframes
+}
+
 TEST_F(JobOnARawlog, effectiveConfigRunsTheSameJobAgain) {
     job_.options.slam.tracker.min_inliers = 30;
     runSlamJob(job_);

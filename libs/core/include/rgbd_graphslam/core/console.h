@@ -2,6 +2,7 @@
 #pragma once
 #include <functional>
 #include <string>
+#include <vector>
 
 namespace rgbd_graphslam {
 
@@ -17,6 +18,20 @@ void sayDetail(const std::string& line);
 void sayInfo(const std::string& line);
 /** Always. */
 void sayWarning(const std::string& line);
+
+/** Keeps what sayWarning says, in any thread, while it lives. */
+class WarningRecord {
+  public:
+    WarningRecord();
+    ~WarningRecord();
+    WarningRecord(const WarningRecord&) = delete;
+    WarningRecord& operator=(const WarningRecord&) = delete;
+
+    std::vector<std::string> warnings() const;
+
+  private:
+    std::size_t first_;  // of all that were said
+};
 
 /** Runs the body of a main() and turns any exception into one line "name: error: …".
  *  \return the body's exit code, or 1 after an exception */

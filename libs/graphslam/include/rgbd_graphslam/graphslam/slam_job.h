@@ -25,6 +25,8 @@ struct JobReport {
     /** Against the rawlog's ground truth, where it has one. */
     std::optional<double> ate_rmse_m;
     std::size_t ate_pairs = 0;
+    /** Factor on the positions with which they would fit the truth best. */
+    std::optional<double> ate_fitted_scale;
 
     /** From the first frame to the last: wall time, and CPU time of all threads. */
     double tracking_wall_s = 0, tracking_cpu_s = 0;
@@ -32,6 +34,8 @@ struct JobReport {
     double peak_memory_mb = 0;
     std::vector<VisualSlam::StageTime> stages;
 
+    /** Said on the way. */
+    std::vector<std::string> warnings;
     bool interrupted = false;
     /** Why the job ended before the rawlog did, naming the frame; empty when it did not. */
     std::string damage;
@@ -41,7 +45,8 @@ struct JobReport {
 };
 
 /** Runs SLAM over the whole rawlog and writes the folder: trajectory.txt, frames.csv,
- *  keyframes.txt, graph.graph, config.ini, the maps unless switched off, and summary.json last. All
+ *  keyframes.txt, graph.graph, config.ini, the maps unless switched off, summary.json, and
+ *  report.html made of them. All
  *  poses are of the camera's optical frame (in the graph: of the robot) in a world with z up and
  *  the floor at 0. The trajectory is byte-identical for any number of threads.
  *

@@ -1,0 +1,60 @@
+/** What a run's output folder tells about it. */
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/geometry/trajectory.h"
+
+namespace rgbd_graphslam {
+
+enum class FrameState { Tracked, Recovered, Lost };
+
+/** A line of frames.csv. */
+struct FrameRecord {
+    double seconds = 0;  // since the first frame
+    FrameState state = FrameState::Tracked;
+    int inliers = 0;  // landmarks that agreed with the pose
+    bool keyframe = false;
+};
+
+/** CPU milliseconds a call. */
+struct StageRecord {
+    std::string name;
+    std::size_t calls = 0;
+    double mean_ms = 0, median_ms = 0, p95_ms = 0, max_ms = 0;
+};
+
+struct LoopRecord {
+    int from = 0, to = 0;  // keyframes
+    int inliers = 0;
+};
+
+struct RunRecord {
+    std::string rawlog, version, config_hash;
+    bool interrupted = false;
+    std::string damage;                 // why the rawlog ended early; empty when it did not
+    std::vector<std::string> warnings;  // said during the run
+    std::size_t out_of_order = 0, landmarks = 0, culled_keyframes = 0;
+    double path_m = 0, frames_per_s = 0, cpu_ms_a_frame = 0, maps_wall_s = 0, peak_memory_mb = 0;
+    double start_s = 0;  // stamp of the first frame
+    std::vector<FrameRecord> frames;
+    std::vector<StageRecord> stages;
+    std::vector<LoopRecord> loops;
+
+    /** Camera poses in the map's frame, z up. */
+    Trajectory trajectory, keyframes;
+    Trajectory keyframes_before_loops;  // empty without loops
+    Trajectory truth;                   // empty where it is not known
+
+    /** Pictures as files hold them; empty where there are none. */
+    std::string map_png, grid_png, keyframes_jpg;
+
+    std::size_t count(FrameState state) const;
+};
+
+/** \param run_folder of rgbd-slam \param map_folder where map.png and grid.png are
+ *  \throws Error naming the file that is missing or makes no sense */
+RunRecord readRunRecord(const std::string& run_folder, const std::string& map_folder);
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,142 @@
+#include "rgbd_graphslam/report/run_record.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace fs = std::filesystem;
+namespace {
+
+using Json = nlohmann::json;
+
+/** Empty when there is no such file. */
+std::string bytesOf(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+}
+
+FrameState stateOf(const std::string& word, const std::string& place) {
+    if (word == "tracked") return FrameState::Tracked;
+    if (word == "recovered") return FrameState::Recovered;
+    if (word == "lost") return FrameState::Lost;
+    throw Error(place + ": a frame is tracked, recovered or lost", "run rgbd-slam again");
+}
+
+/** Lines of stamp_s,origin,inliers,keyframe below a line of titles. */
+void readFrames(const fs::path& path, RunRecord& run) {
+    std::ifstream in(path);
+    if (!in) throw Error("cannot read '" + path.string() + "'", "run rgbd-slam again");
+    std::string line;
+    std::getline(in, line);
+    for (int number = 2; std::getline(in, line); ++number) {
+        const std::string place = path.string() + ":" + std::to_string(number);
+        std::istringstream fields(line);
+        std::string state, keyframe;
+        double stamp_s = 0;
+        char comma = 0;
+        FrameRecord frame;
+        if (!(fields >> stamp_s >> comma) || !std::getline(fields, state, ',') ||
+            !(fields >> frame.inliers >> comma)) {
+            throw Error(place + " is no line of stamp, state, inliers, keyframe",
+                        "run rgbd-slam again");
+        }
+        if (run.frames.empty()) run.start_s = stamp_s;
+        frame.seconds = stamp_s - run.start_s;
+        frame.state = stateOf(state, place);
+        frame.keyframe = static_cast<bool>(fields >> keyframe);
+        run.frames.push_back(frame);
+    }
+}
+
+std::string textOf(const Json& summary, const char* key) {
+    const Json& value = summary.at(key);
+    return value.is_null() ? std::string() : value.get<std::string>();
+}
+
+std::vector<StageRecord> stagesOf(const Json& stages) {
+    std::vector<StageRecord> records;
+    for (const auto& [name, stage] : stages.items()) {
+        const Json& cpu = stage.at("cpu_ms");
+        records.push_back({name, stage.at("calls"), cpu.at("mean"), cpu.at("median"), cpu.at("p95"),
+                           cpu.at("max")});
+    }
+    const auto total = [](const StageRecord& stage) {
+        return stage.mean_ms * static_cast<double>(stage.calls);
+    };
+    std::stable_sort(records.begin(), records.end(),
+                     [&](const auto& a, const auto& b) { return total(a) > total(b); });
+    return records;
+}
+
+void readFigures(const Json& summary, RunRecord& run) {
+    run.rawlog = textOf(summary, "rawlog");
+    run.version = textOf(summary, "version");
+    run.config_hash = textOf(summary, "config_hash");
+    run.interrupted = summary.at("interrupted");
+    run.damage = textOf(summary, "damage");
+    run.warnings = summary.value("warnings", std::vector<std::string>());
+    run.out_of_order = summary.at("out_of_order");
+    run.landmarks = summary.at("landmarks");
+    run.culled_keyframes = summary.at("culled_keyframes");
+    run.path_m = summary.at("path_m");
+    run.frames_per_s = summary.at("frames_per_s");
+    run.cpu_ms_a_frame = summary.at("cpu_ms_a_frame");
+    run.maps_wall_s = summary.at("maps_wall_s");
+    run.peak_memory_mb = summary.at("peak_memory_mb");
+    run.stages = stagesOf(summary.at("stages"));
+    for (const Json& edge : summary.at("loop_edges")) {
+        run.loops.push_back({edge.at(0), edge.at(1), edge.at(2)});
+    }
+}
+
+void readSummary(const fs::path& path, RunRecord& run) {
+    try {
+        readFigures(Json::parse(bytesOf(path)), run);
+    } catch (const Json::exception&) {
+        throw Error("'" + path.string() + "' is missing or not as rgbd-slam writes it",
+                    "run rgbd-slam again");
+    }
+}
+
+void checkLoops(const RunRecord& run, const std::string& folder) {
+    const int keyframes = static_cast<int>(run.keyframes.size());
+    for (const LoopRecord& loop : run.loops) {
+        if (std::min(loop.from, loop.to) >= 0 && std::max(loop.from, loop.to) < keyframes) continue;
+        throw Error("summary.json in '" + folder + "' names a loop beyond keyframes.txt",
+                    "run rgbd-slam again");
+    }
+}
+
+Trajectory readIfThere(const fs::path& path) {
+    return fs::exists(path) ? readTumTrajectory(path.string()) : Trajectory();
+}
+
+}  // namespace
+
+std::size_t RunRecord::count(FrameState state) const {
+    return static_cast<std::size_t>(std::count_if(
+        frames.begin(), frames.end(), [&](const FrameRecord& f) { return f.state == state; }));
+}
+
+RunRecord readRunRecord(const std::string& run_folder, const std::string& map_folder) {
+    const fs::path run_path(run_folder), map_path(map_folder);
+    RunRecord run;
+    readSummary(run_path / "summary.json", run);
+    readFrames(run_path / "frames.csv", run);
+    run.trajectory = readTumTrajectory((run_path / "trajectory.txt").string());
+    run.keyframes = readTumTrajectory((run_path / "keyframes.txt").string());
+    run.keyframes_before_loops = readIfThere(run_path / "keyframes_before_loops.txt");
+    run.truth = readIfThere(run_path / "truth.txt");
+    run.keyframes_jpg = bytesOf(run_path / "keyframes.jpg");
+    run.map_png = bytesOf(map_path / "map.png");
+    run.grid_png = bytesOf(map_path / "grid.png");
+    checkLoops(run, run_folder);
+    return run;
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,129 @@
+#include "rgbd_graphslam/report/run_report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <regex>
+
+#include "rgbd_graphslam/core/error.h"
+#include "run_folder_files.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/** A name that would be markup and a template. */
+constexpr const char* hostile = "/data/<script>document.title=1</script>{{title}}&.rawlog";
+
+std::string reportOf(const MadeRun& run) {
+    const TestFolder folder;
+    makeRunFolder(folder, run);
+    writeRunReport(folder / "", folder / "");
+    return readText(folder / "report.html");
+}
+
+TEST(RunReport, showsEverySection) {
+    const std::string page = reportOf({});
+    for (const char* title : {"Map from above", "Path from above", "Before and after loops",
+                              "Error over time", "Tracked landmarks", "Time by stage"}) {
+        EXPECT_THAT(page, HasSubstr(title));
+    }
+}
+
+TEST(RunReport, leavesOutWhatThereIsNot) {
+    MadeRun run;
+    run.with_truth = run.with_maps = run.with_loop = false;
+    const std::string page = reportOf(run);
+    for (const char* title : {"Map from above", "Before and after loops", "Error over time"}) {
+        EXPECT_THAT(page, Not(HasSubstr(title)));
+    }
+}
+
+TEST(RunReport, needsNoOtherFile) {
+    const std::string page = reportOf({});
+    const std::regex reference("(src|href|url)\\s*[=(]\\s*\"?([^\"> ]{0,5})");
+    for (std::sregex_iterator it(page.begin(), page.end(), reference), end; it != end; ++it) {
+        EXPECT_EQ((*it)[2], "data:");
+    }
+    EXPECT_THAT(page, Not(HasSubstr("//")));
+}
+
+TEST(RunReport, escapesNames) {
+    MadeRun run;
+    run.rawlog = hostile;
+    const std::string page = reportOf(run);
+    EXPECT_THAT(page, Not(HasSubstr("<script")));
+    EXPECT_THAT(page, HasSubstr("&lt;script&gt;document.title=1"));
+    EXPECT_THAT(page, HasSubstr("{{title}}&amp;.rawlog"));
+}
+
+TEST(RunReport, namesTheFileThatMakesNoSense) {
+    const TestFolder folder;
+    makeRunFolder(folder, {});
+    folder.write("frames.csv", "stamp_s,origin,inliers,keyframe\n1,tracked,7,\n2,found,7,\n");
+    try {
+        writeRunReport(folder / "", folder / "");
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_THAT(e.what(), HasSubstr("frames.csv:3"));
+    }
+    folder.write("summary.json", "{}");
+    EXPECT_THROW(writeRunReport(folder / "", folder / ""), Error);
+    EXPECT_FALSE(std::filesystem::exists(folder / "report.html"));
+}
+
+/** The page in a real browser. */
+class ReportInChromium : public testing::Test {
+  protected:
+    void SetUp() override {
+        if (std::system("command -v chromium >/dev/null 2>&1") != 0) {
+            GTEST_SKIP() << "chromium is not installed (apt-get install chromium)";
+        }
+    }
+    /** \return what it printed */
+    std::string chromium(const std::string& arguments) const {
+        const std::string command =
+            "timeout 60 chromium --headless --no-sandbox --disable-gpu --hide-scrollbars "
+            "--window-size=1160,1400 --user-data-dir='" +
+            folder_ / "profile" + "' " + arguments + " 'file://" + folder_ / "report.html" +
+            "' >'" + folder_ / "out" + "' 2>'" + folder_ / "err" + "' </dev/null";
+        const int status = std::system(command.c_str());
+        EXPECT_EQ(status, 0) << readText(folder_ / "err");
+        return readText(folder_ / "out");
+    }
+    TestFolder folder_;
+};
+
+int pixelsLike(const cv::Mat& picture, const cv::Scalar& bgr) {
+    cv::Mat mask;
+    cv::inRange(picture, bgr - cv::Scalar::all(6), bgr + cv::Scalar::all(6), mask);
+    return cv::countNonZero(mask);
+}
+
+TEST_F(ReportInChromium, isDrawn) {
+    makeRunFolder(folder_, {});
+    writeRunReport(folder_ / "", folder_ / "");
+    chromium("--screenshot='" + folder_ / "page.png" + "'");
+    const cv::Mat picture = cv::imread(folder_ / "page.png");
+    ASSERT_EQ(picture.size(), cv::Size(1160, 1400));
+    EXPECT_GT(pixelsLike(picture, {255, 0, 255}), 100000);  // the map
+    EXPECT_GT(pixelsLike(picture, {31, 102, 217}), 300);    // the path
+    EXPECT_GT(pixelsLike(picture, {180, 119, 31}), 300);    // keyframes, landmarks, times
+}
+
+TEST_F(ReportInChromium, takesAHostileNameForText) {
+    MadeRun run;
+    run.rawlog = hostile;
+    makeRunFolder(folder_, run);
+    writeRunReport(folder_ / "", folder_ / "");
+    const std::string dom = chromium("--dump-dom");
+    EXPECT_THAT(dom, HasSubstr("<h1>script&gt;{{title}}&amp;.rawlog</h1>"));
+    EXPECT_THAT(dom, Not(HasSubstr("<script")));
+    EXPECT_THAT(dom, Not(HasSubstr("<title>1</title>")));
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
