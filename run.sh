@@ -10,7 +10,7 @@ packages=(
     libeigen3-dev libopencv-dev libceres-dev liboctomap-dev octomap-tools
     libcli11-dev nlohmann-json3-dev libarchive-dev libnanoflann-dev gnuplot-nox
     libgl-dev libegl1 libgl1-mesa-dri
-    libgtest-dev libgmock-dev libbenchmark-dev python3 xvfb xauth
+    libgtest-dev libgmock-dev libbenchmark-dev python3 parallel xvfb xauth
 )
 
 usage() {

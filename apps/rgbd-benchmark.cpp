@@ -1,0 +1,79 @@
+/** rgbd-benchmark: import, SLAM and evaluation of all sequences in some folders, and one report. */
+#include <cstdio>
+
+#include "command_line.h"
+#include "rgbd_graphslam/benchmark/benchmark_job.h"
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+struct Arguments {
+    BenchmarkRequest request;
+    std::string share = "1/1";
+    bool list = false, no_maps = false;
+};
+
+void declare(CLI::App& app, Arguments& args) {
+    BenchmarkRequest& request = args.request;
+    app.add_option("DIR...", request.folders,
+                   "Folders that hold sequences, their archives or rawlogs, at any depth")
+        ->required();
+    app.add_option("-o,--out", request.out_folder,
+                   "Folder for results and report.html, report.md; finished sequences in it are "
+                   "not run again unless recording, settings or programs changed");
+    app.add_option("--config", request.run.ini,
+                   "Settings of rgbd-slam; default: the shipped ones for the camera");
+    app.add_option("--set", request.run.assignments, "Section.key=value over them; repeatable")
+        ->allow_extra_args(false);
+    app.add_option("--jobs", request.jobs,
+                   "Sequences at a time; 0: one for each two processors and 1 GB of free memory")
+        ->check(CLI::Range(0, 1024))
+        ->capture_default_str();
+    app.add_option("--only", args.share,
+                   "i/n: the i-th of n shares of the sequences, for several machines or jobs; each "
+                   "writes the report over all that is finished")
+        ->capture_default_str();
+    app.add_option("--table", request.table, "Best published figures; default: the shipped ones");
+    app.add_flag("--no-maps", args.no_maps, "Trajectories only");
+    app.add_flag("--keep-rawlogs", request.run.keep_rawlog, "Keep the imported rawlogs");
+    app.add_flag("--list", args.list, "Print the sequences found, run nothing");
+    declareCommonOptions(app);
+}
+
+int list(const Arguments& args, const Share& share) {
+    const auto all = findSequences(args.request.folders, args.request.out_folder);
+    for (const auto& [name, source] : shareOf(all, share)) {
+        std::printf("%s\t%s\n", name.c_str(), source.c_str());
+    }
+    return 0;
+}
+
+int run(Arguments& args) {
+    const Share share = parseShare(args.share);
+    if (args.list) return list(args, share);
+    if (args.request.out_folder.empty()) {
+        throw Error("the output folder is missing", "call rgbd-benchmark DIR... -o OUT");
+    }
+    args.request.share = share;
+    args.request.run.maps = !args.no_maps;
+    const std::size_t failures = runBenchmark(args.request);
+    const std::string report = args.request.out_folder + "/report.html";
+    if (failures > 0) {
+        throw Error(std::to_string(failures) + " sequences failed", "see '" + report + "'");
+    }
+    std::printf("%s\n", report.c_str());
+    return 0;
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
+
+int main(int argc, char** argv) {
+    using namespace rgbd_graphslam;
+    CLI::App app("Runs import, SLAM and evaluation of many RGB-D sequences and reports on all",
+                 "rgbd-benchmark");
+    Arguments args;
+    declare(app, args);
+    return runProgram(app, argc, argv, [&] { return run(args); });
+}
