@@ -9,7 +9,7 @@ packages=(
     libmrpt-dev libmrpt-nanogui-dev mrpt-apps
     libeigen3-dev libopencv-dev libceres-dev liboctomap-dev octomap-tools
     libcli11-dev nlohmann-json3-dev libarchive-dev libcurl4-openssl-dev libnanoflann-dev gnuplot-nox
-    libgl-dev libegl1 libgl1-mesa-dri
+    libgl-dev libopengl-dev libegl1 libgl1-mesa-dri
     libgtest-dev libgmock-dev libbenchmark-dev python3 parallel xvfb xauth
 )
 

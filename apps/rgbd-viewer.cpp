@@ -1,13 +1,42 @@
-/** Shows a finished run's map. */
+/** Shows a run: in a window, or as a picture where there is none. */
 #include <filesystem>
 
 #include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/viewer/snapshot.h"
+#include "rgbd_graphslam/viewer/viewer_app.h"
 
 using namespace rgbd_graphslam;
 
 namespace {
+
+struct Arguments {
+    ViewerJob job;
+    std::string snapshot;
+    ViewOptions view;
+    bool with_ceiling = false;
+};
+
+void declare(CLI::App& app, Arguments& args) {
+    app.add_option("OUT", args.job.path, "Output folder of rgbd-slam, or a .ply")->required();
+    app.add_option("--screenshot", args.job.screenshot,
+                   "Open the window, write it to this PNG once all is shown, and end");
+    app.add_option("--benchmark", args.job.benchmark_s,
+                   "Open the window, measure the frame rate for so many seconds, and end")
+        ->check(CLI::PositiveNumber);
+    auto* snapshot = app.add_option("--snapshot", args.snapshot,
+                                    "PNG to write without a window; needs no display");
+    const auto add = [&](const char* name, auto& value, const char* help) {
+        return app.add_option(name, value, help)->needs(snapshot);
+    };
+    add("--width", args.view.width_px, "Pixels of the snapshot")->check(CLI::Range(16, 8192));
+    add("--height", args.view.height_px, "Pixels of the snapshot")->check(CLI::Range(16, 8192));
+    add("--azimuth", args.view.azimuth_deg, "Look from this direction, degrees from +x");
+    add("--elevation", args.view.elevation_deg, "Look down from this angle, degrees")
+        ->check(CLI::Range(-89, 90));
+    add("--zoom", args.view.zoom, "Above 1 is nearer")->check(CLI::PositiveNumber);
+    app.add_flag("--ceiling", args.with_ceiling, "Leave the ceiling on")->needs(snapshot);
+}
 
 /** An output folder stands for its scene. */
 std::string scenePath(const std::string& where) {
@@ -15,27 +44,24 @@ std::string scenePath(const std::string& where) {
     return fs::is_directory(where) ? (fs::path(where) / "scene.3Dscene").string() : where;
 }
 
+int run(Arguments& args) {
+    if (args.snapshot.empty()) {
+        runViewer(args.job);
+        return 0;
+    }
+    args.view.cut_ceiling = !args.with_ceiling;
+    renderSnapshot(loadScene(scenePath(args.job.path)), args.view, args.snapshot);
+    sayInfo("wrote " + args.snapshot);
+    return 0;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::string where, picture;
-    ViewOptions view;
-    bool with_ceiling = false;
-    CLI::App app("Renders the map of a finished run.", "rgbd-viewer");
-    app.add_option("OUT", where, "Output folder of rgbd-slam, or a .3Dscene")->required();
-    app.add_option("--snapshot", picture, "PNG to write; needs no display")->required();
-    app.add_option("--width", view.width_px, "Pixels")->check(CLI::Range(16, 8192));
-    app.add_option("--height", view.height_px, "Pixels")->check(CLI::Range(16, 8192));
-    app.add_option("--azimuth", view.azimuth_deg, "Look from this direction, degrees from +x");
-    app.add_option("--elevation", view.elevation_deg, "Look down from this angle, degrees")
-        ->check(CLI::Range(-89, 90));
-    app.add_option("--zoom", view.zoom, "Above 1 is nearer")->check(CLI::PositiveNumber);
-    app.add_flag("--ceiling", with_ceiling, "Leave the ceiling on");
+    Arguments args;
+    CLI::App app("Shows a finished run in a window, press ? there for help; or renders its map.",
+                 "rgbd-viewer");
+    declare(app, args);
     declareCommonOptions(app);
-    return runProgram(app, argc, argv, [&] {
-        view.cut_ceiling = !with_ceiling;
-        renderSnapshot(loadScene(scenePath(where)), view, picture);
-        sayInfo("wrote " + picture);
-        return 0;
-    });
+    return runProgram(app, argc, argv, [&] { return run(args); });
 }

@@ -79,6 +79,14 @@ std::string framesCsv(const std::vector<TrackedFrame>& frames) {
     return text;
 }
 
+std::string covisibilityCsv(const std::vector<PoseEdge>& edges) {
+    std::string text = "from,to,landmarks\n";
+    for (const PoseEdge& edge : edges) {
+        text += formatted("%d,%d,%d\n", edge.from, edge.to, edge.inliers);
+    }
+    return text;
+}
+
 std::string summaryJson(const SlamJob& job, const JobReport& report) {
     const Json summary = {
         {"version", RGBD_VERSION},

@@ -177,6 +177,7 @@ void Job::describe() {
     report_.landmarks = slam.landmarks().size();
     for (const PoseEdge& edge : slam.poseGraph().edges) {
         if (edge.kind == EdgeKind::Loop) report_.loop_edges.push_back(edge);
+        if (edge.kind == EdgeKind::Covisibility) report_.covisibility_edges.push_back(edge);
     }
     const Trajectory trajectory = located(slam.frames());
     report_.path_m = pathLength(trajectory);
@@ -252,6 +253,7 @@ void Job::writeReport() {
 void Job::write() {
     writeTextAtomically(path("config.ini"), configText(job_.options));
     writeTextAtomically(path("frames.csv"), framesCsv(session_.slam().frames()));
+    writeTextAtomically(path("covisibility.csv"), covisibilityCsv(report_.covisibility_edges));
     const MapInputs inputs = mapInputs();
     if (inputs.keyframes.empty()) {
         throw Error("none of the " + std::to_string(report_.frames) + " frames of '" + job_.rawlog +

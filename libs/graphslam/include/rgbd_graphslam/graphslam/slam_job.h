@@ -20,7 +20,7 @@ struct JobReport {
     /** Frames left out because their stamp was not later than the one before. */
     std::size_t out_of_order = 0;
     std::size_t keyframes = 0, culled_keyframes = 0, landmarks = 0;
-    std::vector<PoseEdge> loop_edges;
+    std::vector<PoseEdge> loop_edges, covisibility_edges;
     double path_m = 0;
     /** Against the rawlog's ground truth, where it has one. */
     std::optional<double> ate_rmse_m;
@@ -45,8 +45,8 @@ struct JobReport {
 };
 
 /** Runs SLAM over the whole rawlog and writes the folder: trajectory.txt, frames.csv,
- *  keyframes.txt, graph.graph, config.ini, the maps unless switched off, summary.json, and
- *  report.html made of them. All
+ *  keyframes.txt, covisibility.csv, graph.graph, config.ini, the maps unless switched off,
+ *  summary.json, and report.html made of them. All
  *  poses are of the camera's optical frame (in the graph: of the robot) in a world with z up and
  *  the floor at 0. The trajectory is byte-identical for any number of threads.
  *

@@ -1,0 +1,59 @@
+/** A finished run as the viewer shows it. */
+#pragma once
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/mapping/point_fusion.h"
+#include "rgbd_graphslam/viewer/vertex.h"
+
+namespace rgbd_graphslam {
+
+/** Two keyframes, by their place in RunData::keyframes. */
+struct KeyframeEdge {
+    int from = 0, to = 0;
+};
+
+/** A frame as frames.csv has it. */
+struct FrameNote {
+    double stamp_s = 0;
+    bool lost = false;
+    int inliers = 0;
+};
+
+/** An occupied leaf of the octree. */
+struct OctreeCell {
+    Eigen::Vector3f center;  // m
+    float size_m = 0;
+    std::array<std::uint8_t, 3> rgb{};
+};
+
+/** Cells of the 2-D grid: probability of being free, row by row from the lowest y. */
+struct GridMap {
+    int width = 0, height = 0;
+    double resolution_m = 0, x_min_m = 0, y_min_m = 0;
+    std::vector<float> free;
+};
+
+struct RunData {
+    /** Output folder; empty when only a cloud was opened. */
+    std::string folder;
+    std::string rawlog;  // empty when it is gone
+    Trajectory trajectory, keyframes, keyframes_before_loops;
+    /** Each list by the later of the two keyframes, so that a replay shows a prefix. */
+    std::vector<KeyframeEdge> loops, covisibility;
+    std::vector<FrameNote> frames;
+    PointMap points;
+    std::vector<OctreeCell> octree;
+    std::optional<GridMap> grid;
+};
+
+/** Reads what is there; only the trajectory must be. Maps that are missing stay empty, damaged ones
+ *  are named in a warning.
+ *  \param path output folder of rgbd-slam, or a `.ply`
+ *  \throws Error when there is no run */
+RunData loadRun(const std::string& path);
+
+}  // namespace rgbd_graphslam

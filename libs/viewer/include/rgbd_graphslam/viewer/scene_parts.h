@@ -1,0 +1,45 @@
+/** The run's contents as lines and triangles. All are in world coordinates, in m. */
+#pragma once
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "rgbd_graphslam/geometry/camera.h"
+#include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/viewer/run_data.h"
+#include "rgbd_graphslam/viewer/vertex.h"
+
+namespace rgbd_graphslam {
+
+/** Two vertices a line: n - 1 lines for n poses. */
+Vertices pathLines(const Trajectory& poses, const Rgba& color);
+
+/** Vertices of one frustum: lines from the eye to the corners, and round the picture. */
+inline constexpr std::size_t vertices_a_frustum = 16;
+Vertices frustumLines(const Trajectory& cameras, const Camera& camera, double depth_m,
+                      const Rgba& color);
+
+/** A line an edge. */
+Vertices edgeLines(const Trajectory& keyframes, const std::vector<KeyframeEdge>& edges,
+                   const Rgba& color);
+
+/** A line a pair. */
+Vertices pairLines(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& pairs,
+                   const Rgba& color);
+
+/** Lines every metre on the floor below the box. */
+Vertices floorLines(const Eigen::AlignedBox3d& box, const Rgba& color);
+
+/** The sides of cells that no cell of the same size covers, as triangles; one list a direction:
+ *  -x, +x, -y, +y, -z, +z. */
+std::array<Vertices, 6> outerFaces(const std::vector<OctreeCell>& cells);
+
+/** Obstacles and free cells as triangles a little above the floor; unseen cells are left open. */
+Vertices gridTriangles(const GridMap& grid);
+
+Vertices pointVertices(const PointMap& points);
+
+/** The box of everything but a few stray points, for framing. */
+Eigen::AlignedBox3d boxOf(const RunData& run);
+
+}  // namespace rgbd_graphslam

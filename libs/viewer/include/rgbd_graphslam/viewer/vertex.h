@@ -1,0 +1,21 @@
+/** What the viewer's graphics memory is filled with. */
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace rgbd_graphslam {
+
+using Rgba = std::array<std::uint8_t, 4>;
+
+/** A corner of a point, line or triangle; 16 bytes, uploaded as it lies in memory. */
+struct Vertex {
+    Eigen::Vector3f position;  // world, m
+    Rgba color;
+};
+static_assert(sizeof(Vertex) == 16);
+
+using Vertices = std::vector<Vertex>;
+
+}  // namespace rgbd_graphslam

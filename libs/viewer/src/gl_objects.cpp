@@ -1,0 +1,160 @@
+#include "gl_objects.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <opencv2/core.hpp>
+
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr GLuint position_attribute = 0, color_attribute = 1;
+
+GLuint compiled(GLenum kind, const char* source) {
+    const GLuint shader = glCreateShader(kind);
+    glShaderSource(shader, 1, &source, nullptr);
+    glCompileShader(shader);
+    GLint ok = 0;
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+    if (ok) return shader;
+    char log[512] = {};
+    glGetShaderInfoLog(shader, sizeof(log), nullptr, log);
+    throw Error("the graphics driver refuses a shader: " + std::string(log),
+                "try LIBGL_ALWAYS_SOFTWARE=1, or --snapshot");
+}
+
+GLsizeiptr bytesOf(std::size_t vertices) {
+    return static_cast<GLsizeiptr>(vertices * sizeof(Vertex));
+}
+
+}  // namespace
+
+VertexBuffer::VertexBuffer() {
+    glGenVertexArrays(1, &array_);
+}
+
+VertexBuffer::~VertexBuffer() {
+    glDeleteBuffers(1, &buffer_);
+    glDeleteVertexArrays(1, &array_);
+}
+
+void VertexBuffer::set(const Vertices& vertices) {
+    size_ = 0;
+    write(0, vertices);
+}
+
+void VertexBuffer::write(std::size_t first, const Vertices& vertices) {
+    if (vertices.empty()) return;
+    const std::size_t end = first + vertices.size();
+    if (end > capacity_) reserve(size_ == 0 ? end : std::max(end, 2 * capacity_));
+    glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+    glBufferSubData(GL_ARRAY_BUFFER, bytesOf(first), bytesOf(vertices.size()), vertices.data());
+    size_ = std::max(size_, end);
+}
+
+void VertexBuffer::reserve(std::size_t capacity) {
+    GLuint larger = 0;
+    glGenBuffers(1, &larger);
+    glBindBuffer(GL_ARRAY_BUFFER, larger);
+    glBufferData(GL_ARRAY_BUFFER, bytesOf(capacity), nullptr, GL_DYNAMIC_DRAW);
+    if (size_ > 0) {
+        glBindBuffer(GL_COPY_READ_BUFFER, buffer_);
+        glCopyBufferSubData(GL_COPY_READ_BUFFER, GL_ARRAY_BUFFER, 0, 0, bytesOf(size_));
+    }
+    glDeleteBuffers(1, &buffer_);
+    buffer_ = larger;
+    capacity_ = capacity;
+    attach();
+}
+
+void VertexBuffer::attach() {
+    bind();
+    glEnableVertexAttribArray(position_attribute);
+    glVertexAttribPointer(position_attribute, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), nullptr);
+    glEnableVertexAttribArray(color_attribute);
+    glVertexAttribPointer(color_attribute, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Vertex),
+                          reinterpret_cast<const void*>(offsetof(Vertex, color)));
+    glBindVertexArray(0);
+}
+
+ShaderProgram::ShaderProgram(const char* vertex, const char* geometry, const char* fragment)
+    : program_(glCreateProgram()) {
+    const auto add = [&](GLenum kind, const char* source) {
+        const GLuint shader = compiled(kind, source);
+        glAttachShader(program_, shader);
+        glDeleteShader(shader);
+    };
+    add(GL_VERTEX_SHADER, vertex);
+    if (*geometry) add(GL_GEOMETRY_SHADER, geometry);
+    add(GL_FRAGMENT_SHADER, fragment);
+    glBindAttribLocation(program_, position_attribute, "position");
+    glBindAttribLocation(program_, color_attribute, "color");
+    glLinkProgram(program_);
+    GLint ok = 0;
+    glGetProgramiv(program_, GL_LINK_STATUS, &ok);
+    if (!ok) throw Error("the graphics driver cannot link our shaders", "use --snapshot");
+}
+
+GLint ShaderProgram::at(const char* name) {
+    const auto [place, is_new] = places_.emplace(name, 0);
+    if (is_new) place->second = glGetUniformLocation(program_, name);
+    return place->second;
+}
+
+RenderTarget::RenderTarget() {
+    glGenFramebuffers(1, &frame_);
+    glGenRenderbuffers(1, &color_);
+    glGenRenderbuffers(1, &depth_);
+}
+
+RenderTarget::~RenderTarget() {
+    glDeleteRenderbuffers(1, &depth_);
+    glDeleteRenderbuffers(1, &color_);
+    glDeleteFramebuffers(1, &frame_);
+}
+
+void RenderTarget::resize(const Eigen::Vector2i& size_px) {
+    if (size_px == size_px_) return;
+    size_px_ = size_px;
+    glBindRenderbuffer(GL_RENDERBUFFER, color_);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size_px.x(), size_px.y());
+    glBindRenderbuffer(GL_RENDERBUFFER, depth_);
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size_px.x(), size_px.y());
+    glBindFramebuffer(GL_FRAMEBUFFER, frame_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void RenderTarget::bind() const {
+    glBindFramebuffer(GL_FRAMEBUFFER, frame_);
+    glViewport(0, 0, size_px_.x(), size_px_.y());
+}
+
+void RenderTarget::copyToWindow() const {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
+    glBlitFramebuffer(0, 0, size_px_.x(), size_px_.y(), 0, 0, size_px_.x(), size_px_.y(),
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+cv::Mat1f RenderTarget::depthsAround(const Eigen::Vector2i& pixel, int radius_px) const {
+    const int side = 2 * radius_px + 1;
+    cv::Mat1f depths(side, side, 1.f);
+    const cv::Rect wanted(pixel.x() - radius_px, pixel.y() - radius_px, side, side);
+    const cv::Rect there = wanted & cv::Rect(0, 0, size_px_.x(), size_px_.y());
+    if (there.empty()) return depths;
+    cv::Mat1f read(there.size());
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
+    glPixelStorei(GL_PACK_ALIGNMENT, 4);
+    glReadPixels(there.x, size_px_.y() - there.br().y, there.width, there.height,
+                 GL_DEPTH_COMPONENT, GL_FLOAT, read.data);
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, 0);
+    cv::flip(read, read, 0);
+    read.copyTo(depths(there - wanted.tl()));
+    return depths;
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,127 @@
+#include "panels.h"
+
+#include <nanogui/entypo.h>
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr int picture_width_px = 288, picture_height_px = 216, plot_width_px = 232,
+              plot_height_px = 84, line_px = 18;
+constexpr float largest_point_px = 10;
+
+nanogui::Widget* column(nanogui::Widget* parent, int spacing_px) {
+    parent->setLayout(new nanogui::BoxLayout(nanogui::Orientation::Vertical,
+                                             nanogui::Alignment::Fill, 8, spacing_px));
+    return parent;
+}
+
+}  // namespace
+
+ViewPanel::ViewPanel(nanogui::Widget* screen, ViewerSettings& settings,
+                     std::function<void()> changed)
+    : nanogui::Window(screen, "View"), settings_(settings), changed_(std::move(changed)) {
+    column(this, 1);
+    addSwitch(this, "points", &ViewerSettings::points);
+    addSwitch(this, "octree", &ViewerSettings::octree);
+    addSwitch(this, "2-D grid", &ViewerSettings::grid);
+    addSwitch(this, "trajectory", &ViewerSettings::trajectory);
+    addSwitch(this, "true trajectory", &ViewerSettings::truth);
+    addSwitch(this, "errors", &ViewerSettings::errors);
+    addSwitch(this, "keyframes", &ViewerSettings::keyframes);
+    addSwitch(this, "covisibility", &ViewerSettings::covisibility);
+    addSwitch(this, "loops", &ViewerSettings::loops);
+    addSwitch(this, "without loops", &ViewerSettings::before_loops);
+    addSwitch(this, "floor lines", &ViewerSettings::floor);
+    addSwitch(this, "cut the ceiling off", &ViewerSettings::cut_ceiling);
+    by_height_ = new nanogui::CheckBox(this, "colours by height", [this](bool on) {
+        settings_.colors = on ? "height" : "camera";
+        changed_();
+    });
+    new nanogui::Label(this, "point size");
+    point_size_ = new nanogui::Slider(this);
+    point_size_->setFixedWidth(plot_width_px - 90);
+    point_size_->setRange({1, largest_point_px});
+    point_size_->setCallback([this](float px) {
+        settings_.point_size_px = px;
+        changed_();
+    });
+    refresh();
+}
+
+void ViewPanel::addSwitch(nanogui::Widget* parent, const char* caption,
+                          bool ViewerSettings::*field) {
+    auto* box = new nanogui::CheckBox(parent, caption, [this, field](bool on) {
+        settings_.*field = on;
+        changed_();
+    });
+    switches_.emplace_back(box, field);
+}
+
+void ViewPanel::refresh() {
+    for (const auto& [box, field] : switches_) box->setChecked(settings_.*field);
+    by_height_->setChecked(settings_.colors == "height");
+    point_size_->setValue(static_cast<float>(settings_.point_size_px));
+}
+
+PicturePanel::PicturePanel(nanogui::Widget* screen) : nanogui::Window(screen, "Images") {
+    column(this, 4);
+    label_ = new nanogui::Label(this, " ");
+    label_->setFixedSize({picture_width_px, line_px});
+    color_ = new PictureWidget(this, {picture_width_px, picture_height_px});
+    depth_ = new PictureWidget(this, {picture_width_px, picture_height_px});
+}
+
+PlotPanel::PlotPanel(nanogui::Widget* screen) : nanogui::Window(screen, "Plots") {
+    column(this, 4);
+    upper_ = new PlotWidget(this, {plot_width_px, plot_height_px});
+    lower_ = new PlotWidget(this, {plot_width_px, plot_height_px});
+}
+
+TimePanel::TimePanel(nanogui::Widget* screen) : nanogui::Window(screen, "") {
+    column(this, 2);
+    row_ = new nanogui::Widget(this);
+    row_->setLayout(new nanogui::BoxLayout(nanogui::Orientation::Horizontal,
+                                           nanogui::Alignment::Middle, 0, 10));
+    play_ = new nanogui::Button(row_, "", ENTYPO_ICON_CONTROLLER_PLAY);
+    play_->setFlags(nanogui::Button::ToggleButton);
+    play_->setChangeCallback([this](bool play) { on_play(play); });
+    slider_ = new nanogui::Slider(row_);
+    slider_->setCallback([this](float share) { on_move(share); });
+    time_ = new nanogui::Label(row_, "");
+    time_->setFixedSize({110, line_px});
+    news_ = new nanogui::Label(this, " ");
+}
+
+void TimePanel::fitInto(int width_px) {
+    slider_->setFixedWidth(std::max(60, width_px - 200));
+    news_->setFixedSize({std::max(100, width_px - 20), line_px});
+}
+
+void TimePanel::show(float share, bool playing, const std::string& time) {
+    slider_->setValue(share);
+    play_->setPushed(playing);
+    play_->setIcon(playing ? ENTYPO_ICON_CONTROLLER_PAUS : ENTYPO_ICON_CONTROLLER_PLAY);
+    time_->setCaption(time);
+}
+
+void TimePanel::setReplayVisible(bool visible) {
+    row_->setVisible(visible);
+}
+
+HelpPanel::HelpPanel(nanogui::Widget* screen, const std::vector<Shortcut>& shortcuts)
+    : nanogui::Window(screen, "Shortcuts") {
+    setLayout(new nanogui::GridLayout(nanogui::Orientation::Horizontal, 2,
+                                      nanogui::Alignment::Minimum, 12, 3));
+    const auto line = [this](const std::string& name, const std::string& meaning) {
+        new nanogui::Label(this, name, "sans-bold");
+        new nanogui::Label(this, meaning);
+    };
+    line("left drag", "turn");
+    line("right drag", "move");
+    line("wheel", "zoom to the pointer");
+    line("click", "image of a keyframe, or a point to measure from or to");
+    line("double click", "turn around the point clicked");
+    for (const Shortcut& shortcut : shortcuts) line(shortcut.name, shortcut.meaning);
+}
+
+}  // namespace rgbd_graphslam

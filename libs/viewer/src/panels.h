@@ -1,0 +1,92 @@
+/** The viewer's panels: windows within the window. */
+#pragma once
+#include <nanogui/nanogui.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/viewer/viewer_settings.h"
+#include "widgets.h"
+
+namespace rgbd_graphslam {
+
+/** A key and what it does. */
+struct Shortcut {
+    int key;  // GLFW's
+    const char* name;
+    const char* meaning;
+    std::function<void()> act;
+};
+
+/** Switches; each writes its setting and then calls `changed`. */
+class ViewPanel : public nanogui::Window {
+  public:
+    ViewPanel(nanogui::Widget* screen, ViewerSettings& settings, std::function<void()> changed);
+
+    /** Shows settings that were changed elsewhere. */
+    void refresh();
+
+  private:
+    void addSwitch(nanogui::Widget* parent, const char* caption, bool ViewerSettings::*field);
+
+    ViewerSettings& settings_;
+    std::function<void()> changed_;
+    std::vector<std::pair<nanogui::CheckBox*, bool ViewerSettings::*>> switches_;
+    nanogui::CheckBox* by_height_ = nullptr;
+    nanogui::Slider* point_size_ = nullptr;
+};
+
+/** Colour and depth of a keyframe or of the live frame. */
+class PicturePanel : public nanogui::Window {
+  public:
+    explicit PicturePanel(nanogui::Widget* screen);
+
+    PictureWidget& color() { return *color_; }
+    PictureWidget& depth() { return *depth_; }
+    void say(const std::string& text) { label_->setCaption(text); }
+
+  private:
+    nanogui::Label* label_;
+    PictureWidget *color_, *depth_;
+};
+
+class PlotPanel : public nanogui::Window {
+  public:
+    explicit PlotPanel(nanogui::Widget* screen);
+
+    PlotWidget& upper() { return *upper_; }
+    PlotWidget& lower() { return *lower_; }
+
+  private:
+    PlotWidget *upper_, *lower_;
+};
+
+/** The slider that replays the run, and a line of news. */
+class TimePanel : public nanogui::Window {
+  public:
+    explicit TimePanel(nanogui::Widget* screen);
+
+    std::function<void(float share)> on_move = [](float) {};
+    std::function<void(bool play)> on_play = [](bool) {};
+
+    void fitInto(int width_px);
+    void show(float share, bool playing, const std::string& time);
+    void say(const std::string& text) { news_->setCaption(text); }
+    /** A live run has no time to choose. */
+    void setReplayVisible(bool visible);
+
+  private:
+    nanogui::Widget* row_;
+    nanogui::Button* play_;
+    nanogui::Slider* slider_;
+    nanogui::Label *time_, *news_;
+};
+
+/** All shortcuts and what the mouse does. */
+class HelpPanel : public nanogui::Window {
+  public:
+    HelpPanel(nanogui::Widget* screen, const std::vector<Shortcut>& shortcuts);
+};
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,105 @@
+#include "rgbd_graphslam/viewer/recording_loader.h"
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/dataset/rawlog_info.h"
+#include "rgbd_graphslam/evaluation/ate.h"
+#include "rgbd_graphslam/mapping/keyframe_reader.h"
+#include "rgbd_graphslam/viewer/keyframe_view.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr int picture_width_px = 320;
+
+struct Stopped {};
+
+std::vector<unsigned char> jpegOf(const cv::Mat& image) {
+    std::vector<unsigned char> bytes;
+    cv::imencode(".jpg", image, bytes, {cv::IMWRITE_JPEG_QUALITY, 85});
+    return bytes;
+}
+
+KeyframePicture pictureOf(const Keyframe3D& keyframe) {
+    const RgbdImage& image = keyframe.image;
+    KeyframePicture picture;
+    picture.keyframe = keyframe.index;
+    picture.color_jpeg = jpegOf(thinned(image.color, picture_width_px));
+    picture.depth_jpeg =
+        jpegOf(paintedDepth(thinned(image.depth, picture_width_px), image.depth_unit_m));
+    picture.points =
+        transformed(keyframe.pose.T_world_cam,
+                    keyframePoints(image.color, image.depth, image.depth_unit_m, keyframe.camera));
+    return picture;
+}
+
+}  // namespace
+
+TrueTrajectory alignedTruth(const Trajectory& estimate, const Trajectory& truth) {
+    const AteResult ate = evaluateAte(estimate, truth);
+    const SE3 T_estimate_truth = ate.alignment.motion.inverse();
+    TrueTrajectory result;
+    result.rmse_m = ate.translation_m.rmse;
+    for (const StampedPose& pose : truth) {
+        result.poses.push_back({pose.stamp_s, T_estimate_truth * pose.T_world_cam});
+    }
+    for (const AtePair& pair : ate.pairs) {
+        result.errors.push_back(
+            {pair.stamp_s, T_estimate_truth * pair.aligned_m, T_estimate_truth * pair.truth_m});
+    }
+    return result;
+}
+
+RecordingLoader::RecordingLoader(std::string rawlog, Trajectory keyframes, Trajectory trajectory)
+    : rawlog_(std::move(rawlog)),
+      keyframes_(std::move(keyframes)),
+      trajectory_(std::move(trajectory)),
+      thread_([this] { read(); }) {}
+
+RecordingLoader::~RecordingLoader() {
+    {
+        const std::lock_guard lock(mutex_);
+        stop_ = true;
+    }
+    thread_.join();
+}
+
+RecordingLoader::News RecordingLoader::take() {
+    const std::lock_guard lock(mutex_);
+    return std::exchange(news_, News{{}, {}, {}, news_.finished});
+}
+
+void RecordingLoader::read() {
+    try {
+        readPictures();
+        readTruth();
+    } catch (const Stopped&) {
+        return;
+    } catch (const std::exception& e) {
+        sayWarning(std::string("not all of the recording is shown: ") + e.what());
+    }
+    const std::lock_guard lock(mutex_);
+    news_.finished = true;
+}
+
+void RecordingLoader::readPictures() {
+    forEachKeyframe(rawlog_, keyframes_, "images", [&](const Keyframe3D& keyframe) {
+        KeyframePicture picture = pictureOf(keyframe);
+        const std::lock_guard lock(mutex_);
+        if (stop_) throw Stopped();
+        news_.pictures.push_back(std::move(picture));
+        news_.camera = keyframe.camera;
+    });
+}
+
+void RecordingLoader::readTruth() {
+    const Trajectory truth = truthOf(rawlog_);
+    if (truth.empty()) return;
+    TrueTrajectory aligned = alignedTruth(trajectory_, truth);
+    const std::lock_guard lock(mutex_);
+    if (stop_) throw Stopped();
+    news_.truth = std::move(aligned);
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,157 @@
+#include "rgbd_graphslam/viewer/run_data.h"
+
+#include <mrpt/io/CFileGZInputStream.h>
+#include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/serialization/CArchive.h>
+#include <octomap/ColorOcTree.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/mapping/map_files.h"
+#include "rgbd_graphslam/mapping/run_folder.h"
+
+namespace rgbd_graphslam {
+namespace fs = std::filesystem;
+namespace {
+
+/** A map that cannot be read is no reason not to show the others. */
+void ifThere(const fs::path& path, const std::function<void(const std::string&)>& read) {
+    if (!fs::exists(path)) return;
+    try {
+        read(path.string());
+    } catch (const std::exception& e) {
+        sayWarning(std::string(e.what()) + "; it is not shown");
+    }
+}
+
+std::vector<OctreeCell> occupiedCells(const octomap::ColorOcTree& tree) {
+    std::vector<OctreeCell> cells;
+    for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
+        if (!tree.isNodeOccupied(*leaf)) continue;
+        const auto p = leaf.getCoordinate();
+        const auto color = leaf->getColor();
+        cells.push_back({{p.x(), p.y(), p.z()},
+                         static_cast<float>(leaf.getSize()),
+                         {color.r, color.g, color.b}});
+    }
+    return cells;
+}
+
+GridMap readGrid(const std::string& path) {
+    mrpt::maps::COccupancyGridMap2D map;
+    mrpt::io::CFileGZInputStream in(path);
+    auto archive = mrpt::serialization::archiveFrom(in);
+    archive >> map;
+    GridMap grid;
+    grid.width = static_cast<int>(map.getSizeX());
+    grid.height = static_cast<int>(map.getSizeY());
+    grid.resolution_m = map.getResolution();
+    grid.x_min_m = map.getXMin();
+    grid.y_min_m = map.getYMin();
+    for (int y = 0; y < grid.height; ++y) {
+        for (int x = 0; x < grid.width; ++x) grid.free.push_back(map.getCell(x, y));
+    }
+    return grid;
+}
+
+/** Rows of a comma-separated file without its heading. */
+std::vector<std::vector<std::string>> csvRows(const std::string& path) {
+    std::ifstream in(path);
+    std::vector<std::vector<std::string>> rows;
+    std::string line, cell;
+    std::getline(in, line);
+    while (std::getline(in, line)) {
+        std::istringstream cells(line);
+        rows.emplace_back();
+        while (std::getline(cells, cell, ',')) rows.back().push_back(cell);
+    }
+    return rows;
+}
+
+std::vector<FrameNote> readFrames(const std::string& path) {
+    std::vector<FrameNote> frames;
+    for (const auto& row : csvRows(path)) {
+        frames.push_back({std::stod(row.at(0)), row.at(1) == "lost", std::stoi(row.at(2))});
+    }
+    return frames;
+}
+
+std::vector<KeyframeEdge> readCovisibility(const std::string& path, int keyframes) {
+    std::vector<KeyframeEdge> edges;
+    for (const auto& row : csvRows(path)) {
+        edges.push_back({std::stoi(row.at(0)), std::stoi(row.at(1))});
+        if (std::max(edges.back().from, edges.back().to) >= keyframes) {
+            throw Error("'" + path + "' names a keyframe that keyframes.txt does not have");
+        }
+    }
+    return edges;
+}
+
+void sortByLater(std::vector<KeyframeEdge>& edges) {
+    std::stable_sort(edges.begin(), edges.end(), [](const KeyframeEdge& a, const KeyframeEdge& b) {
+        return std::max(a.from, a.to) < std::max(b.from, b.to);
+    });
+}
+
+/** Poses and, where it still exists, the recording they come from. */
+MapInputs readInputs(const std::string& folder) {
+    try {
+        return readRunFolder(folder, "");
+    } catch (const Error& e) {
+        MapInputs inputs = readRunFolder(folder, "gone");  // throws when more is wrong than that
+        inputs.rawlog.clear();
+        sayWarning(std::string(e.what()) + "; shown without images and true trajectory");
+        return inputs;
+    }
+}
+
+void readPoses(const fs::path& folder, RunData& run) {
+    MapInputs inputs = readInputs(folder.string());
+    run.rawlog = std::move(inputs.rawlog);
+    run.trajectory = std::move(inputs.trajectory);
+    run.keyframes = std::move(inputs.keyframes);
+    run.keyframes_before_loops = std::move(inputs.keyframes_before_loops);
+    const int count = static_cast<int>(run.keyframes.size());
+    for (const MapLoopEdge& loop : inputs.loops) {
+        if (loop.from < count && loop.to < count) run.loops.push_back({loop.from, loop.to});
+    }
+    ifThere(folder / "covisibility.csv",
+            [&](const std::string& path) { run.covisibility = readCovisibility(path, count); });
+    sortByLater(run.loops);
+    sortByLater(run.covisibility);
+    ifThere(folder / "frames.csv", [&](const std::string& path) { run.frames = readFrames(path); });
+}
+
+void readMaps(const fs::path& folder, RunData& run) {
+    ifThere(folder / "points.ply", [&](const std::string& path) { run.points = loadPly(path); });
+    ifThere(folder / "octree.ot",
+            [&](const std::string& path) { run.octree = occupiedCells(*loadColorOcTree(path)); });
+    ifThere(folder / "grid.gridmap.gz",
+            [&](const std::string& path) { run.grid = readGrid(path); });
+}
+
+}  // namespace
+
+RunData loadRun(const std::string& path) {
+    RunData run;
+    if (fs::path(path).extension() == ".ply") {
+        run.points = loadPly(path);
+        return run;
+    }
+    if (!fs::is_directory(path)) {
+        throw Error("'" + path + "' is neither a folder nor a .ply",
+                    "give the output folder of rgbd-slam");
+    }
+    run.folder = path;
+    readPoses(path, run);
+    readMaps(path, run);
+    return run;
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,155 @@
+#include "run_scene.h"
+
+#include <algorithm>
+
+#include "rgbd_graphslam/viewer/keyframe_view.h"
+#include "rgbd_graphslam/viewer/scene_parts.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr Rgba floor_color = {198, 204, 213, 255}, trajectory_color = {235, 95, 0, 255},
+               truth_color = {20, 140, 60, 255}, error_color = {190, 60, 190, 255},
+               keyframe_color = {30, 90, 200, 255}, covisibility_color = {120, 170, 120, 255},
+               loop_color = {215, 25, 60, 255}, before_color = {130, 130, 140, 255},
+               now_color = {235, 95, 0, 255}, selection_color = {255, 190, 0, 255},
+               measure_color = {200, 0, 200, 255};
+constexpr double lowest_ceiling_m = 2, ceiling_margin_m = 0.1;
+
+double highestOf(const Trajectory& poses) {
+    double highest_m = lowest_ceiling_m - ceiling_margin_m;
+    for (const StampedPose& pose : poses) highest_m = std::max(highest_m, pose.T_world_cam.t.z());
+    return highest_m + ceiling_margin_m;
+}
+
+/** Two vertices for every line up to a stamp. */
+template <class List>
+std::size_t verticesUntil(const List& list, std::optional<double> stamp_s) {
+    if (!stamp_s) return whole;
+    const auto end = std::upper_bound(list.begin(), list.end(), *stamp_s,
+                                      [](double s, const auto& e) { return s < e.stamp_s; });
+    return 2 * static_cast<std::size_t>(end - list.begin());
+}
+
+}  // namespace
+
+void RunScene::show(RunData run) {
+    run_ = std::move(run);
+    box_ = boxOf(run_);
+    truth_.reset();
+    pictures_.assign(run_.keyframes.size(), {});
+    renderer_.clearKeyframePoints();
+    renderer_.setLines(Part::Floor, box_.isEmpty() ? Vertices{} : floorLines(box_, floor_color));
+    renderer_.setLines(Part::Path, pathLines(run_.trajectory, trajectory_color));
+    renderer_.setLines(Part::Loops, edgeLines(run_.keyframes, run_.loops, loop_color));
+    renderer_.setLines(Part::Covisibility,
+                       edgeLines(run_.keyframes, run_.covisibility, covisibility_color));
+    renderer_.setLines(Part::BeforeLoops, pathLines(run_.keyframes_before_loops, before_color));
+    renderer_.setLines(Part::TruePath, {});
+    renderer_.setLines(Part::Errors, {});
+    renderer_.setTriangles(Part::Grid, run_.grid ? gridTriangles(*run_.grid) : Vertices{});
+    renderer_.setOctree(outerFaces(run_.octree));
+    renderer_.setPoints(chunked(pointVertices(run_.points)));
+    run_.points = {};  // the renderer has them
+    setCamera(camera_);
+}
+
+void RunScene::setCamera(const Camera& camera) {
+    camera_ = camera;
+    renderer_.setLines(Part::Keyframes,
+                       frustumLines(run_.keyframes, camera, frustumDepth(), keyframe_color));
+}
+
+/** Frustums are as large as keyframes are apart, so that they neither vanish nor hide the map. */
+double RunScene::frustumDepth() const {
+    if (run_.keyframes.size() < 2) return 0.1;
+    double path_m = 0;
+    for (std::size_t k = 1; k < run_.keyframes.size(); ++k) {
+        path_m += (run_.keyframes[k].T_world_cam.t - run_.keyframes[k - 1].T_world_cam.t).norm();
+    }
+    return std::clamp(path_m / static_cast<double>(run_.keyframes.size() - 1), 0.06, 0.2);
+}
+
+void RunScene::add(RecordingLoader::News news) {
+    if (news.camera) setCamera(*news.camera);
+    for (KeyframePicture& picture : news.pictures) {
+        renderer_.setKeyframePoints(picture.keyframe, picture.points);
+        picture.points = {};  // the renderer has them
+        pictures_[picture.keyframe] = std::move(picture);
+    }
+    if (!news.truth) return;
+    truth_ = std::move(news.truth);
+    renderer_.setLines(Part::TruePath, pathLines(truth_->poses, truth_color));
+    std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> pairs;
+    for (const auto& error : truth_->errors) pairs.emplace_back(error.estimate, error.truth);
+    renderer_.setLines(Part::Errors, pairLines(pairs, error_color));
+}
+
+void RunScene::markNow(std::optional<double> stamp_s) {
+    if (stamp_s == now_s_) return;
+    now_s_ = stamp_s;
+    const auto pose = stamp_s ? poseAt(run_.trajectory, *stamp_s) : std::nullopt;
+    renderer_.setLines(Part::NowCamera, pose ? frustumLines({{*stamp_s, *pose}}, camera_,
+                                                            2 * frustumDepth(), now_color)
+                                             : Vertices{});
+}
+
+void RunScene::select(std::optional<std::size_t> keyframe) {
+    Vertices lines;
+    if (keyframe) {
+        lines =
+            frustumLines({run_.keyframes[*keyframe]}, camera_, 2 * frustumDepth(), selection_color);
+    }
+    renderer_.setLines(Part::Selection, lines);
+}
+
+void RunScene::markPoints(const std::vector<Eigen::Vector3d>& points, double cross_m) {
+    std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> lines;
+    for (const Eigen::Vector3d& point : points) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const Eigen::Vector3d arm = cross_m * Eigen::Vector3d::Unit(axis);
+            lines.emplace_back(point - arm, point + arm);
+        }
+    }
+    if (points.size() == 2) lines.emplace_back(points[0], points[1]);
+    renderer_.setLines(Part::Measure, pairLines(lines, measure_color));
+}
+
+SceneView RunScene::viewAt(std::optional<double> stamp_s, const ViewerSettings& settings) const {
+    const ReplayState now = replayAt(run_, stamp_s.value_or(1e300));
+    SceneView view;
+    const auto put = [&](Part part, bool shown, std::size_t vertices) {
+        view.of(part) = shown ? vertices : 0;
+    };
+    put(Part::Floor, settings.floor, whole);
+    put(Part::Grid, settings.grid, whole);
+    put(Part::Octree, settings.octree, whole);
+    put(Part::Path, settings.trajectory, 2 * std::max<std::size_t>(now.poses, 1) - 2);
+    put(Part::Keyframes, settings.keyframes, vertices_a_frustum * now.keyframes);
+    put(Part::Covisibility, settings.covisibility, 2 * now.covisibility);
+    put(Part::Loops, settings.loops, 2 * now.loops);
+    put(Part::BeforeLoops, settings.before_loops, whole);
+    put(Part::TruePath, settings.truth && truth_,
+        truth_ ? verticesUntil(truth_->poses, stamp_s) : 0);
+    put(Part::Errors, settings.errors && truth_,
+        truth_ ? verticesUntil(truth_->errors, stamp_s) : 0);
+    for (const Part part : {Part::NowCamera, Part::Selection, Part::Measure})
+        put(part, true, whole);
+    view.points = settings.points;
+    if (stamp_s) view.keyframe_clouds = std::max<std::size_t>(now.keyframes, 1);
+    view.color_by_height = settings.colors == "height";
+    if (!box_.isEmpty()) {
+        view.height_range_m = {static_cast<float>(box_.min().z()),
+                               static_cast<float>(box_.max().z())};
+    }
+    if (settings.cut_ceiling) view.highest_m = static_cast<float>(highestOf(run_.trajectory));
+    view.least_point_px = static_cast<float>(settings.point_size_px);
+    return view;
+}
+
+const KeyframePicture* RunScene::picture(std::size_t keyframe) const {
+    const bool there = keyframe < pictures_.size() && !pictures_[keyframe].color_jpeg.empty();
+    return there ? &pictures_[keyframe] : nullptr;
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,50 @@
+/** A run in the 3-D view. */
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "rgbd_graphslam/viewer/recording_loader.h"
+#include "rgbd_graphslam/viewer/replay.h"
+#include "rgbd_graphslam/viewer/run_data.h"
+#include "rgbd_graphslam/viewer/viewer_settings.h"
+#include "scene_renderer.h"
+
+namespace rgbd_graphslam {
+
+/** Keeps the run's data and fills the renderer with them. */
+class RunScene {
+  public:
+    explicit RunScene(SceneRenderer& renderer) : renderer_(renderer) {}
+
+    /** Takes the place of the run before. */
+    void show(RunData run);
+    void add(RecordingLoader::News news);
+    /** \param stamp_s where the camera is drawn; nothing draws none */
+    void markNow(std::optional<double> stamp_s);
+    void select(std::optional<std::size_t> keyframe);
+    /** One point as a cross, two with a line between them. */
+    void markPoints(const std::vector<Eigen::Vector3d>& points, double cross_m);
+
+    /** What is drawn at a moment. \param stamp_s nothing stands for the whole run */
+    SceneView viewAt(std::optional<double> stamp_s, const ViewerSettings& settings) const;
+
+    const RunData& run() const { return run_; }
+    const std::optional<TrueTrajectory>& truth() const { return truth_; }
+    /** \return nullptr while it is not read */
+    const KeyframePicture* picture(std::size_t keyframe) const;
+    Eigen::AlignedBox3d box() const { return box_; }
+
+  private:
+    double frustumDepth() const;
+    void setCamera(const Camera& camera);
+
+    SceneRenderer& renderer_;
+    RunData run_;
+    Eigen::AlignedBox3d box_;
+    Camera camera_;
+    std::optional<TrueTrajectory> truth_;
+    std::vector<KeyframePicture> pictures_;  // one a keyframe, empty while not read
+    std::optional<double> now_s_;
+};
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,193 @@
+#include "rgbd_graphslam/viewer/scene_parts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_set>
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr float grid_height_m = 0.01f;
+constexpr float free_at_least = 0.6f, occupied_at_most = 0.4f;
+constexpr Rgba free_color = {250, 250, 250, 255}, occupied_color = {40, 44, 52, 255};
+constexpr double stray_share = 0.005;
+
+void addLine(Vertices& lines, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+             const Rgba& color) {
+    lines.push_back({a.cast<float>(), color});
+    lines.push_back({b.cast<float>(), color});
+}
+
+/** Two triangles. \param corners in order round the quadrangle */
+void addQuad(Vertices& triangles, const std::array<Eigen::Vector3f, 4>& corners,
+             const Rgba& color) {
+    for (const int i : {0, 1, 2, 0, 2, 3}) triangles.push_back({corners[i], color});
+}
+
+void addFrustum(Vertices& lines, const SE3& T, const Camera& camera, double depth_m,
+                const Rgba& color) {
+    const double w = camera.width - 1, h = camera.height - 1;
+    const Eigen::Vector3d corners[] = {
+        T * camera.unproject(0, 0, depth_m), T * camera.unproject(w, 0, depth_m),
+        T * camera.unproject(w, h, depth_m), T * camera.unproject(0, h, depth_m)};
+    for (int i = 0; i < 4; ++i) {
+        addLine(lines, T.t, corners[i], color);
+        addLine(lines, corners[i], corners[(i + 1) % 4], color);
+    }
+}
+
+/** Cells of one size by their place among cells of that size. */
+class CellIndex {
+  public:
+    explicit CellIndex(const std::vector<OctreeCell>& cells) {
+        for (const OctreeCell& cell : cells) keys_.insert(keyOf(cell, Eigen::Vector3i::Zero()));
+    }
+    bool hasNeighbour(const OctreeCell& cell, const Eigen::Vector3i& step) const {
+        return keys_.count(keyOf(cell, step)) > 0;
+    }
+
+  private:
+    /** Twenty bits an axis, four for the size. */
+    static std::uint64_t keyOf(const OctreeCell& cell, const Eigen::Vector3i& step) {
+        std::uint64_t key = static_cast<std::uint64_t>(std::ilogb(cell.size_m)) & 15;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto place =
+                static_cast<std::int64_t>(std::floor(cell.center[axis] / cell.size_m)) + step[axis];
+            key = key << 20 | (static_cast<std::uint64_t>(place) & 0xFFFFF);
+        }
+        return key;
+    }
+    std::unordered_set<std::uint64_t> keys_;
+};
+
+void addFace(Vertices& triangles, const OctreeCell& cell, int axis, int side) {
+    const float half = cell.size_m / 2;
+    Eigen::Vector3f across = Eigen::Vector3f::Zero(), along = across, out = across;
+    out[axis] = side * half;
+    across[(axis + 1) % 3] = half;
+    along[(axis + 2) % 3] = half;
+    const Eigen::Vector3f center = cell.center + out;
+    addQuad(triangles,
+            {center - across - along, center + across - along, center + across + along,
+             center - across + along},
+            {cell.rgb[0], cell.rgb[1], cell.rgb[2], 255});
+}
+
+enum class CellKind { Unseen, Free, Occupied };
+
+CellKind kindOf(float probability_free) {
+    if (probability_free > free_at_least) return CellKind::Free;
+    return probability_free < occupied_at_most ? CellKind::Occupied : CellKind::Unseen;
+}
+
+/** Cells [x0, x1) of a row. */
+void addGridRun(Vertices& triangles, const GridMap& grid, int y, int x0, int x1, CellKind kind) {
+    const auto corner = [&](int cx, int cy) {
+        return Eigen::Vector3f(static_cast<float>(grid.x_min_m + cx * grid.resolution_m),
+                               static_cast<float>(grid.y_min_m + cy * grid.resolution_m),
+                               grid_height_m);
+    };
+    addQuad(triangles, {corner(x0, y), corner(x1, y), corner(x1, y + 1), corner(x0, y + 1)},
+            kind == CellKind::Free ? free_color : occupied_color);
+}
+
+float quantile(std::vector<float>& values, double share) {
+    const auto nth = values.begin() +
+                     static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), nth, values.end());
+    return *nth;
+}
+
+}  // namespace
+
+Vertices pathLines(const Trajectory& poses, const Rgba& color) {
+    Vertices lines;
+    for (std::size_t i = 1; i < poses.size(); ++i) {
+        addLine(lines, poses[i - 1].T_world_cam.t, poses[i].T_world_cam.t, color);
+    }
+    return lines;
+}
+
+Vertices frustumLines(const Trajectory& cameras, const Camera& camera, double depth_m,
+                      const Rgba& color) {
+    Vertices lines;
+    for (const StampedPose& pose : cameras) {
+        addFrustum(lines, pose.T_world_cam, camera, depth_m, color);
+    }
+    return lines;
+}
+
+Vertices edgeLines(const Trajectory& keyframes, const std::vector<KeyframeEdge>& edges,
+                   const Rgba& color) {
+    Vertices lines;
+    for (const KeyframeEdge& edge : edges) {
+        addLine(lines, keyframes[edge.from].T_world_cam.t, keyframes[edge.to].T_world_cam.t, color);
+    }
+    return lines;
+}
+
+Vertices pairLines(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& pairs,
+                   const Rgba& color) {
+    Vertices lines;
+    for (const auto& [a, b] : pairs) addLine(lines, a, b, color);
+    return lines;
+}
+
+Vertices floorLines(const Eigen::AlignedBox3d& box, const Rgba& color) {
+    const double x_min = std::floor(box.min().x()), x_max = std::ceil(box.max().x());
+    const double y_min = std::floor(box.min().y()), y_max = std::ceil(box.max().y());
+    Vertices lines;
+    for (double x = x_min; x <= x_max; ++x) addLine(lines, {x, y_min, 0}, {x, y_max, 0}, color);
+    for (double y = y_min; y <= y_max; ++y) addLine(lines, {x_min, y, 0}, {x_max, y, 0}, color);
+    return lines;
+}
+
+std::array<Vertices, 6> outerFaces(const std::vector<OctreeCell>& cells) {
+    const CellIndex index(cells);
+    std::array<Vertices, 6> faces;
+    for (const OctreeCell& cell : cells) {
+        for (int direction = 0; direction < 6; ++direction) {
+            const int axis = direction / 2, side = direction % 2 == 0 ? -1 : 1;
+            const Eigen::Vector3i step = side * Eigen::Vector3i::Unit(axis);
+            if (!index.hasNeighbour(cell, step)) addFace(faces[direction], cell, axis, side);
+        }
+    }
+    return faces;
+}
+
+Vertices gridTriangles(const GridMap& grid) {
+    Vertices triangles;
+    for (int y = 0; y < grid.height; ++y) {
+        const float* row = grid.free.data() + static_cast<std::size_t>(y) * grid.width;
+        for (int x0 = 0, x1 = 0; x0 < grid.width; x0 = x1) {
+            const CellKind kind = kindOf(row[x0]);
+            while (x1 < grid.width && kindOf(row[x1]) == kind) ++x1;
+            if (kind != CellKind::Unseen) addGridRun(triangles, grid, y, x0, x1, kind);
+        }
+    }
+    return triangles;
+}
+
+Vertices pointVertices(const PointMap& points) {
+    Vertices vertices;
+    vertices.reserve(points.size());
+    for (const auto& [p, rgb] : points) vertices.push_back({p, {rgb[0], rgb[1], rgb[2], 255}});
+    return vertices;
+}
+
+Eigen::AlignedBox3d boxOf(const RunData& run) {
+    Eigen::AlignedBox3d box;
+    for (const StampedPose& pose : run.trajectory) box.extend(pose.T_world_cam.t);
+    if (run.points.empty()) return box;
+    Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = low;
+    std::vector<float> values(run.points.size());
+    for (int axis = 0; axis < 3; ++axis) {
+        std::transform(run.points.begin(), run.points.end(), values.begin(),
+                       [&](const MapPoint& point) { return point.position[axis]; });
+        low[axis] = quantile(values, stray_share);
+        high[axis] = quantile(values, 1 - stray_share);
+    }
+    return box.extend(low).extend(high);
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,71 @@
+#include "rgbd_graphslam/viewer/viewer_app.h"
+
+#include <filesystem>
+
+#include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/error.h"
+#include "viewer_window.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+std::string glfw_complaint;
+
+/** The window system; its errors are ours to report. */
+class Glfw {
+  public:
+    Glfw() {
+        glfwSetErrorCallback([](int, const char* text) { glfw_complaint = text; });
+        if (!glfwInit()) {
+            throw Error("no window can be opened (" + glfw_complaint + ")",
+                        "call from a desktop, or use --snapshot for a picture without one");
+        }
+        glfwSetTime(0);
+    }
+    ~Glfw() { glfwTerminate(); }
+    Glfw(const Glfw&) = delete;
+    Glfw& operator=(const Glfw&) = delete;
+};
+
+nanogui::ref<ViewerWindow> makeWindow(const ViewerSettings& settings, const std::string& title) {
+    try {
+        return new ViewerWindow(settings, title);
+    } catch (const Error&) {
+        throw;
+    } catch (const std::exception&) {
+        throw Error("the display offers no OpenGL 3.3 (" + glfw_complaint + ")",
+                    "try LIBGL_ALWAYS_SOFTWARE=1, or use --snapshot");
+    }
+}
+
+void reportSpeed(ViewerWindow& window, double seconds) {
+    window.spin(0.3 * seconds);  // until the number of points has adapted
+    const double rate = window.spin(seconds);
+    sayInfo(std::to_string(window.points()) + " points, " + std::to_string(window.pointsDrawn()) +
+            " in a moving picture, " + std::to_string(rate) + " pictures/s");
+}
+
+void runUntilClosed(ViewerWindow& window, const ViewerJob& job) {
+    while (!glfwWindowShouldClose(window.glfwWindow())) {
+        const double wait_s = window.update();
+        if (window.settled() && job.benchmark_s > 0) return reportSpeed(window, job.benchmark_s);
+        if (window.settled() && !job.screenshot.empty())
+            return window.saveScreenshot(job.screenshot);
+        glfwWaitEventsTimeout(wait_s);
+    }
+}
+
+}  // namespace
+
+void runViewer(const ViewerJob& job) {
+    const Glfw glfw;
+    RunData run = loadRun(job.path);
+    const std::string path = settingsPath();
+    nanogui::ref<ViewerWindow> window = makeWindow(loadSettings(path), "rgbd-viewer: " + job.path);
+    window->setVisible(true);
+    window->open(std::move(run));
+    runUntilClosed(*window, job);
+    if (job.screenshot.empty() && job.benchmark_s == 0) saveSettings(path, window->settings());
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,148 @@
+#include "widgets.h"
+
+#include <nanogui/opengl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <opencv2/imgproc.hpp>
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr float mark_radius_px = 1.6f, margin_px = 4, text_px = 14;
+
+const nanogui::Color paper(25, 28, 34, 255), curve_color(90, 200, 250, 255),
+    cursor_color(255, 170, 60, 255), text_color(225, 228, 232, 255);
+
+void fillRectangle(NVGcontext* context, const nanogui::Vector2i& corner,
+                   const nanogui::Vector2i& size, const NVGpaint& paint) {
+    nvgBeginPath(context);
+    nvgRect(context, corner.x(), corner.y(), size.x(), size.y());
+    nvgFillPaint(context, paint);
+    nvgFill(context);
+}
+
+void fillRectangle(NVGcontext* context, const nanogui::Vector2i& corner,
+                   const nanogui::Vector2i& size, const nanogui::Color& color) {
+    nvgBeginPath(context);
+    nvgRect(context, corner.x(), corner.y(), size.x(), size.y());
+    nvgFillColor(context, color);
+    nvgFill(context);
+}
+
+void write(NVGcontext* context, float x, float y, int align, const std::string& text) {
+    nvgFontSize(context, text_px);
+    nvgFontFace(context, "sans");
+    nvgTextAlign(context, align);
+    nvgFillColor(context, text_color);
+    nvgText(context, x, y, text.c_str(), nullptr);
+}
+
+}  // namespace
+
+PictureWidget::PictureWidget(nanogui::Widget* parent, const nanogui::Vector2i& size_px)
+    : nanogui::Widget(parent), wanted_px_(size_px) {}
+
+void PictureWidget::show(const cv::Mat3b& image, const std::string& text_without) {
+    text_ = text_without;
+    rgba_.release();
+    if (!image.empty()) cv::cvtColor(image, rgba_, cv::COLOR_BGR2RGBA);
+    is_new_ = true;
+}
+
+void PictureWidget::upload(NVGcontext* context) {
+    is_new_ = false;
+    if (handle_ != 0 && rgba_.size() == uploaded_size_) {
+        nvgUpdateImage(context, handle_, rgba_.data);
+        return;
+    }
+    if (handle_ != 0) nvgDeleteImage(context, handle_);
+    handle_ = nvgCreateImageRGBA(context, rgba_.cols, rgba_.rows, 0, rgba_.data);
+    uploaded_size_ = rgba_.size();
+}
+
+void PictureWidget::draw(NVGcontext* context) {
+    const float w = static_cast<float>(mSize.x()), h = static_cast<float>(mSize.y());
+    const float x = static_cast<float>(mPos.x()), y = static_cast<float>(mPos.y());
+    if (rgba_.empty()) {
+        fillRectangle(context, mPos, mSize, paper);
+        write(context, x + w / 2, y + h / 2, NVG_ALIGN_CENTER | NVG_ALIGN_MIDDLE, text_);
+        return;
+    }
+    if (is_new_) upload(context);
+    fillRectangle(context, mPos, mSize, nvgImagePattern(context, x, y, w, h, 0, handle_, 1));
+    for (const PictureMark& mark : marks_) {
+        nvgBeginPath(context);
+        nvgRect(context, x + w * mark.x - mark_radius_px, y + h * mark.y - mark_radius_px,
+                2 * mark_radius_px, 2 * mark_radius_px);
+        nvgFillColor(context, mark.color);
+        nvgFill(context);
+    }
+}
+
+PlotWidget::PlotWidget(nanogui::Widget* parent, const nanogui::Vector2i& size_px)
+    : nanogui::Widget(parent), wanted_px_(size_px) {}
+
+void PlotWidget::name(const std::string& title, const std::string& unit) {
+    title_ = title;
+    unit_ = unit;
+}
+
+std::string PlotWidget::number(float value) const {
+    char text[64];
+    std::snprintf(text, sizeof(text), "%.4g%s", static_cast<double>(value), unit_.c_str());
+    return text;
+}
+
+void PlotWidget::draw(NVGcontext* context) {
+    fillRectangle(context, mPos, mSize, paper);
+    float low = 0, high = 0;  // the axis always begins at zero
+    for (const float value : values_) {
+        if (std::isfinite(value)) high = std::max(high, value);
+    }
+    if (high > low) drawCurve(context, low, high);
+    drawTexts(context, low, high);
+}
+
+void PlotWidget::drawCurve(NVGcontext* context, float low, float high) {
+    const float w = static_cast<float>(mSize.x()), x0 = static_cast<float>(mPos.x());
+    const float bottom = static_cast<float>(mPos.y() + mSize.y()) - margin_px;
+    const float h = static_cast<float>(mSize.y()) - text_px - 2 * margin_px;
+    const auto last = static_cast<float>(std::max<std::size_t>(values_.size(), 2) - 1);
+    nvgBeginPath(context);
+    bool drawing = false;
+    for (std::size_t i = 0; i < values_.size(); ++i) {
+        const float x = x0 + w * static_cast<float>(i) / last;
+        const float y = bottom - h * (values_[i] - low) / (high - low);
+        if (std::isnan(values_[i])) {
+            drawing = false;
+        } else if (std::exchange(drawing, true)) {
+            nvgLineTo(context, x, y);
+        } else {
+            nvgMoveTo(context, x, y);
+        }
+    }
+    nvgStrokeColor(context, curve_color);
+    nvgStrokeWidth(context, 1.2f);
+    nvgStroke(context);
+    if (cursor_ >= 0 && cursor_ <= 1) {
+        fillRectangle(context, {static_cast<int>(x0 + w * cursor_), mPos.y()}, {1, mSize.y()},
+                      cursor_color);
+    }
+}
+
+void PlotWidget::drawTexts(NVGcontext* context, float low, float high) {
+    const float left = static_cast<float>(mPos.x()) + margin_px;
+    const float right = static_cast<float>(mPos.x() + mSize.x()) - margin_px;
+    const float top = static_cast<float>(mPos.y()) + 2;
+    write(context, left, top, NVG_ALIGN_LEFT | NVG_ALIGN_TOP, title_);
+    if (high <= low) return;
+    std::string text = "max " + number(high);
+    if (!values_.empty() && std::isfinite(values_.back())) {
+        text = number(values_.back()) + ", " + text;
+    }
+    write(context, right, top, NVG_ALIGN_RIGHT | NVG_ALIGN_TOP, text);
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,66 @@
+/** Widgets that nanogui lacks. */
+#pragma once
+#include <nanogui/nanogui.h>
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <vector>
+
+namespace rgbd_graphslam {
+
+/** A point marked in a picture. */
+struct PictureMark {
+    float x = 0, y = 0;  // share of width and height, 0 to 1
+    nanogui::Color color;
+};
+
+/** An image with marks, as wide as the widget is. */
+class PictureWidget : public nanogui::Widget {
+  public:
+    PictureWidget(nanogui::Widget* parent, const nanogui::Vector2i& size_px);
+
+    /** \param image BGR; empty shows the text instead */
+    void show(const cv::Mat3b& image, const std::string& text_without);
+    void mark(std::vector<PictureMark> marks) { marks_ = std::move(marks); }
+
+    nanogui::Vector2i preferredSize(NVGcontext*) const override { return wanted_px_; }
+    void draw(NVGcontext* context) override;
+
+  private:
+    void upload(NVGcontext* context);
+
+    nanogui::Vector2i wanted_px_;
+    cv::Mat rgba_;
+    std::string text_;
+    bool is_new_ = false;
+    int handle_ = 0;
+    cv::Size uploaded_size_;
+    std::vector<PictureMark> marks_;
+};
+
+/** A curve over time with its range. */
+class PlotWidget : public nanogui::Widget {
+  public:
+    PlotWidget(nanogui::Widget* parent, const nanogui::Vector2i& size_px);
+
+    void name(const std::string& title, const std::string& unit);
+    /** \param values evenly over the plot's width; NaN leaves a gap */
+    void show(std::vector<float> values) { values_ = std::move(values); }
+    /** \param share of the width where the cursor stands; outside [0, 1] hides it */
+    void setCursor(float share) { cursor_ = share; }
+
+    nanogui::Vector2i preferredSize(NVGcontext*) const override { return wanted_px_; }
+    void draw(NVGcontext* context) override;
+
+  private:
+    void drawCurve(NVGcontext* context, float low, float high);
+    void drawTexts(NVGcontext* context, float low, float high);
+    std::string number(float value) const;
+
+    nanogui::Vector2i wanted_px_;
+    std::string title_, unit_;
+    std::vector<float> values_;
+    float cursor_ = -1;
+};
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,47 @@
+# The viewer opens its window on a display without hardware (Xvfb), shows a run, and what it shows is
+# not blank; without a display it says so in one line, and --snapshot works all the same.
+# APP: rgbd-viewer. SLAM: rgbd-slam. RAWLOG, INI: a short run. SCRATCH: a folder for it all.
+cmake_minimum_required(VERSION 3.22)
+
+find_program(XVFB_RUN xvfb-run)
+if(NOT XVFB_RUN)
+    message(STATUS "SKIPPED: no xvfb-run (Debian's package xvfb)")
+    return()
+endif()
+file(REMOVE_RECURSE ${SCRATCH})
+file(MAKE_DIRECTORY ${SCRATCH})
+set(ENV{XDG_CONFIG_HOME} ${SCRATCH}/config)
+
+execute_process(COMMAND ${SLAM} --quiet --max-frames 40 ${INI} ${RAWLOG} -o ${SCRATCH}/out
+    COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
+
+function(expect_picture file)
+    if(NOT EXISTS ${file})
+        message(FATAL_ERROR "${file} was not written")
+    endif()
+    file(SIZE ${file} bytes)
+    # One colour packs into a few kB; a room does not.
+    if(bytes LESS 60000)
+        message(FATAL_ERROR "${file} has ${bytes} bytes: it is blank or nearly so")
+    endif()
+endfunction()
+
+execute_process(
+    COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24"
+        ${APP} ${SCRATCH}/out --screenshot ${SCRATCH}/window.png
+    RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE text TIMEOUT 120)
+if(NOT code EQUAL 0)
+    message(FATAL_ERROR "the viewer ended with ${code} and said:\n${text}")
+endif()
+expect_picture(${SCRATCH}/window.png)
+
+unset(ENV{DISPLAY})
+unset(ENV{WAYLAND_DISPLAY})
+execute_process(COMMAND ${APP} ${SCRATCH}/out
+    RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE text TIMEOUT 60)
+if(code EQUAL 0 OR NOT text MATCHES "^rgbd-viewer: error: no window can be opened[^\n]*--snapshot[^\n]*\n$")
+    message(FATAL_ERROR "without a display the viewer ended with ${code} and said:\n${text}")
+endif()
+execute_process(COMMAND ${APP} ${SCRATCH}/out --quiet --snapshot ${SCRATCH}/snapshot.png
+    COMMAND_ERROR_IS_FATAL ANY TIMEOUT 120)
+expect_picture(${SCRATCH}/snapshot.png)

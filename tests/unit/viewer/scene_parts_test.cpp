@@ -1,0 +1,116 @@
+#include "rgbd_graphslam/viewer/scene_parts.h"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr Rgba red = {255, 0, 0, 255};
+
+Trajectory alongX(int n) {
+    Trajectory poses;
+    for (int i = 0; i < n; ++i) {
+        poses.push_back({0.1 * i, SE3(Eigen::Matrix3d::Identity(), {0.5 * i, 0, 1})});
+    }
+    return poses;
+}
+
+std::size_t verticesOf(const std::array<Vertices, 6>& faces) {
+    return std::accumulate(faces.begin(), faces.end(), std::size_t{0},
+                           [](std::size_t sum, const Vertices& v) { return sum + v.size(); });
+}
+
+TEST(PathLines, joinConsecutivePoses) {
+    const Vertices lines = pathLines(alongX(3), red);
+    ASSERT_EQ(lines.size(), 4U);
+    EXPECT_EQ(lines[1].position, lines[2].position);
+    EXPECT_FLOAT_EQ(lines[3].position.x(), 1);
+    EXPECT_EQ(lines[0].color, red);
+    EXPECT_TRUE(pathLines(alongX(1), red).empty());
+    EXPECT_TRUE(pathLines({}, red).empty());
+}
+
+TEST(FrustumLines, openTowardsWhatTheCameraSees) {
+    const Camera camera;
+    const Vertices lines = frustumLines(alongX(2), camera, 0.2, red);
+    ASSERT_EQ(lines.size(), 2 * vertices_a_frustum);
+    int at_eye = 0;
+    for (std::size_t i = 0; i < vertices_a_frustum; ++i) {
+        const float z = lines[i].position.z();  // the camera looks along +z from z = 1
+        at_eye += z == 1.f;
+        EXPECT_TRUE(z == 1.f || std::abs(z - 1.2f) < 1e-6f);
+    }
+    EXPECT_EQ(at_eye, 4);
+    EXPECT_FLOAT_EQ(lines[vertices_a_frustum].position.x(), 0.5f);
+}
+
+TEST(EdgeLines, joinTheirKeyframes) {
+    const Vertices lines = edgeLines(alongX(5), {{4, 1}}, red);
+    ASSERT_EQ(lines.size(), 2U);
+    EXPECT_FLOAT_EQ(lines[0].position.x(), 2);
+    EXPECT_FLOAT_EQ(lines[1].position.x(), 0.5f);
+}
+
+TEST(OuterFaces, aLoneCellIsACube) {
+    const auto faces = outerFaces({{{0.05f, 0.15f, 0.25f}, 0.1f, {1, 2, 3}}});
+    for (int direction = 0; direction < 6; ++direction) {
+        ASSERT_EQ(faces[direction].size(), 6U);
+        const int axis = direction / 2;
+        const float expected = 0.1f * static_cast<float>(axis) + (direction % 2 == 0 ? 0 : 0.1f);
+        for (const Vertex& v : faces[direction]) EXPECT_NEAR(v.position[axis], expected, 1e-6f);
+    }
+    EXPECT_EQ(faces[0][0].color, (Rgba{1, 2, 3, 255}));
+}
+
+TEST(OuterFaces, sidesBetweenNeighboursAreLeftOut) {
+    std::vector<OctreeCell> row;
+    for (int i = -3; i < 5; ++i) {
+        row.push_back({{0.1f * static_cast<float>(i) + 0.05f, 0.05f, -0.05f}, 0.1f, {}});
+    }
+    const auto faces = outerFaces(row);
+    EXPECT_EQ(faces[0].size(), 6U);  // -x
+    EXPECT_EQ(faces[1].size(), 6U);
+    EXPECT_EQ(verticesOf(faces), 6U * (2 + 4 * row.size()));
+}
+
+TEST(OuterFaces, cellsOfOtherSizesDoNotHideOneAnother) {
+    const auto faces =
+        outerFaces({{{0.05f, 0.05f, 0.05f}, 0.1f, {}}, {{0.2f, 0.1f, 0.1f}, 0.2f, {}}});
+    EXPECT_EQ(verticesOf(faces), 72U);
+}
+
+TEST(GridTriangles, equalNeighboursShareARectangleAndUnseenCellsAreOpen) {
+    GridMap grid;
+    grid.width = 5, grid.height = 2;
+    grid.resolution_m = 0.1, grid.x_min_m = -1, grid.y_min_m = 2;
+    grid.free = {0.9f, 0.9f, 0.5f, 0.1f, 0.1f, 0.5f, 0.5f, 0.5f, 0.5f, 0.9f};
+    const Vertices triangles = gridTriangles(grid);
+    ASSERT_EQ(triangles.size(), 3U * 6);
+    EXPECT_FLOAT_EQ(triangles[0].position.x(), -1);
+    EXPECT_FLOAT_EQ(triangles[1].position.x(), -0.8f);
+    EXPECT_GT(triangles[0].color[0], 200);
+    EXPECT_FLOAT_EQ(triangles[6].position.x(), -0.7f);
+    EXPECT_FLOAT_EQ(triangles[7].position.x(), -0.5f);
+    EXPECT_LT(triangles[6].color[0], 60);
+    EXPECT_FLOAT_EQ(triangles[12].position.y(), 2.1f);
+}
+
+TEST(BoxOf, leavesStrayPointsOut) {
+    RunData run;
+    run.trajectory = alongX(2);
+    for (int i = 0; i < 2000; ++i) {
+        const float x = 0.001f * static_cast<float>(i);
+        run.points.push_back({{x, 2 * x, 0}, {}});
+    }
+    run.points.push_back({{900, 900, 900}, {}});
+    const auto box = boxOf(run);
+    EXPECT_LT(box.max().x(), 2.1);
+    EXPECT_GT(box.max().y(), 3.9);
+    EXPECT_DOUBLE_EQ(box.max().z(), 1);  // the trajectory is never left out
+    EXPECT_TRUE(boxOf(RunData()).isEmpty());
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
