@@ -1,6 +1,8 @@
 #include "rgbd_graphslam/slam/loop_closer.h"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "rgbd_graphslam/slam/matcher.h"
 #include "rgbd_graphslam/slam/ransac_alignment.h"
@@ -17,6 +19,14 @@ constexpr int fused_neighbours = 10;
 /** What an edge is worth when two keyframes share too little to tell: 5 cm, 3 degrees. */
 const Vector6d weak_sigma = (Vector6d() << 0.05, 0.05, 0.05, 0.05, 0.05, 0.05).finished();
 constexpr int fewest_for_information = 10;
+/** Disagreement of a loop with the map that needs no long path to explain. */
+constexpr double least_drift_m = 0.3, least_drift_rad = 0.3;
+/** Farther apart, two views have hardly a descriptor in common. */
+constexpr double widest_view_m = 4, widest_view_rad = 1.2;
+/** A loop with fewer inliers than this share of the best one's is no contender. */
+constexpr double contender_share = 0.5;
+/** A loop is unheeded if the optimised graph leaves more than this of what it asked. */
+constexpr double unheeded_m = 0.05, unheeded_share = 0.25;
 
 /** Some of a frame's keypoints. */
 struct Selection {
@@ -55,7 +65,31 @@ std::vector<Descriptor> LoopCloser::placeDescriptors(int id) const {
     return descriptors;
 }
 
-/** Best-voted earlier keyframes that the map does not connect with this one yet. */
+/** Length of the shortest way between two keyframes along the robot's path, with one loop as a
+ *  short cut: drift can only have gathered on it. */
+double LoopCloser::pathLength(int from, int to) const {
+    const auto along = [&](int a, int b) { return std::abs(travelled_m_[a] - travelled_m_[b]); };
+    double shortest = along(from, to);
+    for (const PoseEdge& loop : loops_) {
+        shortest = std::min(shortest, along(from, loop.from) + along(loop.to, to));
+    }
+    return shortest;
+}
+
+LoopCloser::Drift LoopCloser::greatestDrift(int from, int to) const {
+    const double gathered = options_.loops.max_drift_share * pathLength(from, to);
+    return {least_drift_m + gathered, least_drift_rad + gathered};
+}
+
+/** Whether a keyframe can share a view with a candidate if the map errs as much as it may. */
+bool LoopCloser::mightSee(int keyframe, int candidate) const {
+    const SE3 apart = map_.T_cam_world(candidate) * map_.T_cam_world(keyframe).inverse();
+    const Drift drift = greatestDrift(candidate, keyframe);
+    return apart.t.norm() <= widest_view_m + drift.m &&
+           apart.angle() <= widest_view_rad + drift.rad;
+}
+
+/** Best-voted earlier keyframes within reach that the map does not connect with this one yet. */
 std::vector<int> LoopCloser::candidatesFor(int keyframe) const {
     const auto neighbours = map_.covisible(keyframe, 1);
     std::vector<int> candidates;
@@ -63,7 +97,7 @@ std::vector<int> LoopCloser::candidatesFor(int keyframe) const {
         if (vote.votes < fewest_votes) break;
         if (static_cast<int>(candidates.size()) >= options_.loops.candidates) break;
         if (vote.keyframe > keyframe - options_.loops.min_keyframe_gap) continue;
-        if (map_.keyframe(vote.keyframe).culled) continue;
+        if (map_.keyframe(vote.keyframe).culled || !mightSee(keyframe, vote.keyframe)) continue;
         const bool connected =
             std::any_of(neighbours.begin(), neighbours.end(),
                         [&](const Covisibility& c) { return c.keyframe == vote.keyframe; });
@@ -72,18 +106,46 @@ std::vector<int> LoopCloser::candidatesFor(int keyframe) const {
     return candidates;
 }
 
+/** Of places that look alike, the one that asks for least drift among those with many inliers;
+ *  none when even that is more than the path explains. */
+std::optional<LoopCloser::Loop> LoopCloser::likeliest(std::vector<Loop> loops) const {
+    int most_inliers = 0;
+    for (const Loop& loop : loops) most_inliers = std::max(most_inliers, loop.edge.inliers);
+    std::optional<Loop> best;
+    double least_share = 1;
+    for (Loop& loop : loops) {
+        if (loop.edge.inliers < contender_share * most_inliers) continue;
+        const Drift greatest = greatestDrift(loop.edge.from, loop.edge.to);
+        const double share = std::max(loop.asked.m / greatest.m, loop.asked.rad / greatest.rad);
+        if (share > least_share) continue;
+        least_share = share;
+        best = std::move(loop);
+    }
+    return best;
+}
+
+/** Brings the odometer up to a keyframe. */
+void LoopCloser::travelTo(int keyframe) {
+    if (travelled_m_.empty()) travelled_m_.push_back(0);
+    for (int k = static_cast<int>(travelled_m_.size()); k <= keyframe; ++k) {
+        const SE3 step = map_.T_cam_world(k - 1) * map_.T_cam_world(k).inverse();
+        travelled_m_.push_back(travelled_m_.back() + step.t.norm());
+    }
+}
+
 std::vector<PoseEdge> LoopCloser::findLoops(int keyframe) {
-    std::vector<PoseEdge> found;
+    travelTo(keyframe);
+    std::vector<Loop> verified;
     for (const int candidate : candidatesFor(keyframe)) {
-        auto loop = verify(keyframe, candidate);
-        if (!loop) continue;
-        found.push_back(loop->edge);
-        loops_.push_back(loop->edge);
-        unfused_.push_back(std::move(*loop));
-        break;
+        if (auto loop = verify(keyframe, candidate)) verified.push_back(std::move(*loop));
     }
     index_.insert(keyframe, placeDescriptors(keyframe));
-    return found;
+    auto loop = likeliest(std::move(verified));
+    if (!loop) return {};
+    const PoseEdge edge = loop->edge;
+    loops_.push_back(edge);
+    unfused_.push_back(std::move(*loop));
+    return {edge};
 }
 
 /** Aligns a frame with the landmarks of one keyframe. Only keypoints that can take part are
@@ -136,6 +198,8 @@ std::optional<LoopCloser::Loop> LoopCloser::verify(int id, int candidate) {
     loop.edge.information = solvePose(camera_, matches, located->T_cam_world).information;
     loop.edge.kind = EdgeKind::Loop;
     loop.edge.inliers = located->inliers;
+    loop.asked = asked(loop.edge);
+    loop.seen_again = located->landmarks;
     for (const Covisibility& c : map_.observers(located->landmarks)) {
         const auto& seen = map_.keyframe(c.keyframe).landmarks;
         loop.landmarks.insert(loop.landmarks.end(), seen.begin(), seen.end());
@@ -223,13 +287,50 @@ void LoopCloser::correct(const std::vector<SE3>& T_world_keyframe, LocalMapper& 
     for (const Keyframe& keyframe : map_.keyframes()) {
         if (!keyframe.culled) map_.setPose(keyframe.id, T_world_keyframe[keyframe.id].inverse());
     }
-    for (const Loop& loop : unfused_) {
-        mapper.joinInto(loop.edge.to, loop.landmarks);
-        auto neighbours = map_.covisible(loop.edge.to);
-        if (neighbours.size() > fused_neighbours) neighbours.resize(fused_neighbours);
-        for (const Covisibility& c : neighbours) mapper.joinInto(c.keyframe, loop.landmarks);
+    for (const Loop& loop : std::exchange(unfused_, {})) {
+        if (followed(loop)) {
+            fuse(loop, mapper);
+        } else {
+            forget(loop.edge);
+        }
     }
-    unfused_.clear();
+}
+
+/** What a loop asks of the map as it is: how far its later keyframe would have to move. */
+LoopCloser::Drift LoopCloser::asked(const PoseEdge& loop) const {
+    const SE3 T_from_to = map_.T_cam_world(loop.from) * map_.T_cam_world(loop.to).inverse();
+    const SE3 move = loop.T_from_to.inverse() * T_from_to;
+    return {move.t.norm(), move.angle()};
+}
+
+/** A loop that the robust graph left unheeded contradicts all the others. */
+bool LoopCloser::followed(const Loop& loop) const {
+    return asked(loop.edge).m < std::max(unheeded_m, unheeded_share * loop.asked.m);
+}
+
+void LoopCloser::forget(const PoseEdge& edge) {
+    const auto same = [&](const PoseEdge& e) { return e.from == edge.from && e.to == edge.to; };
+    loops_.erase(std::remove_if(loops_.begin(), loops_.end(), same), loops_.end());
+}
+
+/** What verification matched is one landmark, whatever distance the drift put between the two. */
+void LoopCloser::fuse(const Loop& loop, LocalMapper& mapper) {
+    const int keyframe = loop.edge.to;
+    for (std::size_t i = 0; i < loop.seen_again.size(); ++i) {
+        const int old = loop.seen_again[i];
+        if (old == no_landmark || !map_.landmark(old).alive) continue;
+        if (map_.keypointOf(old, keyframe) >= 0) continue;
+        const int young = map_.keyframe(keyframe).landmarks[i];
+        if (young == no_landmark) {
+            map_.addObservation(old, keyframe, static_cast<int>(i));
+        } else {
+            map_.fuse(young, old);
+        }
+    }
+    auto neighbours = map_.covisible(keyframe);
+    if (neighbours.size() > fused_neighbours) neighbours.resize(fused_neighbours);
+    mapper.joinInto(keyframe, loop.landmarks);
+    for (const Covisibility& c : neighbours) mapper.joinInto(c.keyframe, loop.landmarks);
 }
 
 }  // namespace rgbd_graphslam

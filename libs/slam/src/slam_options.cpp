@@ -64,6 +64,9 @@ void LoopOptions::describe(OptionVisitor& v) {
               "Most tries for a loop's motion");
     v.integer("bits_hamming", bits_hamming, 1, 128, "bits",
               "Farthest that place descriptors are apart");
+    v.real("max_drift_share", max_drift_share, 0, 1, "m/m",
+           "Drift believed possible on the way round a loop; what asks for more is another place "
+           "that looks alike");
 }
 
 }  // namespace rgbd_graphslam

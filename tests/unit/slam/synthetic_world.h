@@ -26,6 +26,21 @@ class SyntheticWorld {
         }
     }
 
+    /** A wall 3 m ahead along x whose every `period_m` looks the same. */
+    static SyntheticWorld repeatingWall(double period_m, int periods) {
+        SyntheticWorld wall(0);
+        for (int i = 0; i < 150 * period_m; ++i) {
+            const Eigen::Vector3d p(wall.uniform(0, period_m), wall.uniform(-1.5, 1.5),
+                                    wall.uniform(2.9, 3.1));
+            const Descriptor look{wall.random_(), wall.random_(), wall.random_(), wall.random_()};
+            for (int n = 0; n < periods; ++n) {
+                wall.points_.push_back(p + Eigen::Vector3d(n * period_m, 0, 0));
+                wall.descriptors_.push_back(look);
+            }
+        }
+        return wall;
+    }
+
     /** \param noise_px of keypoint places; depth has a tenth of a percent; every descriptor has a
      * few flipped bits */
     Frame view(const SE3& T_world_cam, double stamp_s, const Camera& camera,

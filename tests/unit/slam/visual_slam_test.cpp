@@ -31,8 +31,8 @@ struct SlamRun {
 };
 
 /** \param poses T_world_cam a frame; none = a covered camera */
-SlamRun runOn(const std::vector<std::optional<SE3>>& poses, SlamOptions options = {}) {
-    SyntheticWorld world(24000);
+SlamRun runOn(const std::vector<std::optional<SE3>>& poses, SlamOptions options = {},
+              SyntheticWorld world = SyntheticWorld(24000)) {
     const Camera camera;
     VisualSlam slam(options, camera);
     SlamRun run;
@@ -79,6 +79,24 @@ TEST(VisualSlam, closesTheLoopOfAFullTurn) {
     EXPECT_EQ(lost(run), 0);
     EXPECT_GE(run.loops, 1);
     EXPECT_LT(run.largestError(), 0.015);
+}
+
+std::vector<std::optional<SE3>> alongWall(double length_m) {
+    std::vector<std::optional<SE3>> poses;
+    for (double x = 2; x < 2 + length_m; x += 0.05) {
+        poses.emplace_back(SE3(Eigen::Matrix3d::Identity(), {x, 0, 0}));
+    }
+    return poses;
+}
+
+TEST(VisualSlam, takesNoPlaceThatMerelyLooksAlikeForALoop) {
+    const SyntheticWorld wall = SyntheticWorld::repeatingWall(5, 4);
+    const SlamRun run = runOn(alongWall(12), {}, wall);
+    EXPECT_EQ(run.loops, 0);
+    EXPECT_LT(run.largestError(), 0.03);
+    SlamOptions gullible;
+    gullible.loops.max_drift_share = 1;
+    EXPECT_GT(runOn(alongWall(12), gullible, wall).loops, 0) << "the places do not look alike";
 }
 
 TEST(VisualSlam, comesBackAfterTheCameraWasCovered) {

@@ -32,14 +32,32 @@ class LoopCloser {
     void correct(const std::vector<SE3>& T_world_keyframe, LocalMapper& mapper);
 
   private:
+    /** How far two poses are apart. */
+    struct Drift {
+        double m = 0, rad = 0;
+    };
     struct Loop {
         PoseEdge edge;
-        std::vector<int> landmarks;  // of the earlier place, seen again
+        /** What it asked of the map when it was found. */
+        Drift asked;
+        /** Landmark of the earlier place that each keypoint of the later keyframe shows. */
+        std::vector<int> seen_again;
+        /** All landmarks of the earlier place. */
+        std::vector<int> landmarks;
     };
-    std::optional<Loop> verify(int keyframe, int candidate);
-    std::optional<LocatedFrame> align(const Frame& frame, int candidate) const;
+    void travelTo(int keyframe);
+    double pathLength(int from, int to) const;
+    Drift greatestDrift(int from, int to) const;
+    Drift asked(const PoseEdge& loop) const;
+    bool mightSee(int keyframe, int candidate) const;
     std::vector<Descriptor> placeDescriptors(int keyframe) const;
     std::vector<int> candidatesFor(int keyframe) const;
+    std::optional<LocatedFrame> align(const Frame& frame, int candidate) const;
+    std::optional<Loop> verify(int keyframe, int candidate);
+    std::optional<Loop> likeliest(std::vector<Loop> loops) const;
+    bool followed(const Loop& loop) const;
+    void forget(const PoseEdge& edge);
+    void fuse(const Loop& loop, LocalMapper& mapper);
     Matrix6d informationOf(int keyframe, const std::vector<int>& landmarks) const;
 
     const SlamOptions& options_;
@@ -47,6 +65,8 @@ class LoopCloser {
     SlamMap& map_;
     PlaceIndex index_;
     Tracker verifier_;
+    /** Length of the path up to each keyframe, m. */
+    std::vector<double> travelled_m_;
     std::vector<PoseEdge> loops_;
     std::vector<Loop> unfused_;
 };

@@ -70,6 +70,7 @@ struct LoopOptions : Options {
     int min_inliers = 40;
     int ransac_iterations = 300;
     int bits_hamming = 40;
+    double max_drift_share = 0.02;
 
     const char* section() const override { return "LoopOptions"; }
     const char* about() const override { return "Recognising places seen before"; }
