@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Arguments {
-    std::string source, rawlog, camera, layout = "auto";
+    std::string source, rawlog, camera, depth_camera, layout = "auto";
     double rate_hz = 30;
     double depth_units = 0, depth_scale = 0;
     bool compact = false, small = false;
@@ -45,6 +45,13 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_option("--depth-scale", args.depth_scale,
                    "Factor on depth; default: the camera file's, else 1")
         ->check(CLI::PositiveNumber);
+    app.add_option(
+           "--register", args.depth_camera,
+           "Ini file of the camera that took the depth images, when they are not registered "
+           "to colour: they are warped to it. sensor_pose in both files tells how the "
+           "cameras lie, depth_units that of the images")
+        ->excludes("--depth-units")
+        ->excludes("--depth-scale");
     app.add_option("--max-difference", args.import.max_difference_s,
                    "Colour and depth further apart are no pair, s")
         ->check(CLI::PositiveNumber)
@@ -99,7 +106,9 @@ int importFolder(const Arguments& args, const std::string& folder) {
     CameraSetup setup = chooseCamera(args, sequence, layout);
     if (args.depth_units > 0) setup.depth_units = args.depth_units;
     if (args.depth_scale > 0) setup.depth_scale = args.depth_scale;
-    const ImportReport report = importSequence(sequence, setup, args.rawlog, args.import);
+    ImportOptions options = args.import;
+    if (!args.depth_camera.empty()) options.depth_camera = readCameraFile(args.depth_camera);
+    const ImportReport report = importSequence(sequence, setup, args.rawlog, options);
     std::fputs(toText(report).c_str(), stdout);
     return 0;
 }

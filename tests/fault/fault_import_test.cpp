@@ -293,7 +293,7 @@ TEST_F(FaultArchive, cutArchive) {
 TEST_F(FaultArchive, archiveWithoutSequence) {
     fs::remove(folder_ / "s/rgb.txt");
     pack("");
-    expectRefused(importArchive(), "no rgb.txt in the archive");
+    expectRefused(importArchive(), "no sequence in the archive");
 }
 
 TEST_F(FaultArchive, foreignFile) {

@@ -12,9 +12,11 @@
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/progress.h"
+#include "rgbd_graphslam/dataset/depth_registration.h"
 #include "rgbd_graphslam/dataset/depth_stamps.h"
 #include "rgbd_graphslam/dataset/image_file.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
+#include "rgbd_graphslam/dataset/registration_check.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "sensor_entries.h"
 
@@ -31,6 +33,9 @@ DepthStamps depthStampsOf(const std::vector<FramePair>& pairs) {
     }
     return stamps;
 }
+
+/** Over a sequence, so many frames are looked at for how depth lies to colour. */
+constexpr std::size_t frames_checked = 20;
 
 /** A frame on its way from disk to rawlog. */
 struct LoadedFrame {
@@ -49,16 +54,43 @@ void checkSize(const std::string& file, const cv::Mat& pixels, const Camera& cam
                 "colour and depth must have one size, which --camera FILE.ini gives as resolution");
 }
 
-LoadedFrame load(const RgbdSequence& sequence, const FramePair& pair, const Camera& camera) {
+/** What is common to all frames of an import. */
+struct FrameSource {
+    const RgbdSequence& sequence;
+    Camera color_camera, depth_camera;
+    std::optional<DepthRegistration> registration;
+
+    FrameSource(const RgbdSequence& recorded, const CameraSetup& setup,
+                const std::optional<CameraSetup>& depth)
+        : sequence(recorded),
+          color_camera(setup.camera),
+          depth_camera(depth ? depth->camera : setup.camera) {
+        if (!depth) return;
+        const SE3 T_color_depth = T_optical_from_mrpt * setup.T_base_sensor.inverse() *
+                                  depth->T_base_sensor * T_optical_from_mrpt.inverse();
+        registration.emplace(depth_camera, color_camera, T_color_depth, depth->depthUnitInMetres());
+    }
+};
+
+LoadedFrame load(const FrameSource& source, const FramePair& pair) {
+    const RgbdSequence& sequence = source.sequence;
     const std::string color_file = fs::path(sequence.folder) / pair.color.file;
     const std::string depth_file = fs::path(sequence.folder) / pair.depth.file;
     DecodedImage color = readColorImage(color_file), depth = readDepthImage(depth_file);
     const std::string damage = color.damage.empty() ? depth.damage : color.damage;
     if (!damage.empty()) return {color_file, {}, {}, damage};
-    checkSize(color_file, color.pixels, camera);
-    checkSize(depth_file, depth.pixels, camera);
+    checkSize(color_file, color.pixels, source.color_camera);
+    checkSize(depth_file, depth.pixels, source.depth_camera);
     if (sequence.no_reading != 0) depth.pixels.setTo(0, depth.pixels == sequence.no_reading);
+    if (source.registration) depth.pixels = (*source.registration)(depth.pixels);
     return {color_file, color.pixels, depth.pixels, {}};
+}
+
+CameraSetup withDepthUnitOf(const std::optional<CameraSetup>& depth, CameraSetup setup) {
+    if (!depth) return setup;
+    setup.depth_units = depth->depth_units;
+    setup.depth_scale = depth->depth_scale;
+    return setup;
 }
 
 /** Writes one import's entries in order of time. */
@@ -66,8 +98,9 @@ class Import {
   public:
     Import(const RgbdSequence& sequence, const CameraSetup& setup, const ImportOptions& options)
         : sequence_(sequence),
-          setup_(setup),
+          setup_(withDepthUnitOf(options.depth_camera, setup)),
           options_(options),
+          source_(sequence, setup, options.depth_camera),
           pairs_(pairUp(sequence, options, report_)),
           sensors_(sensorEntries(sequence, setup, report_)) {}
 
@@ -78,15 +111,14 @@ class Import {
         std::size_t next_load = 0, next_sensor = 0;
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
             for (; next_load < pairs_.size() && loading.size() < ahead(); ++next_load) {
-                loading.push([this, &pair = pairs_[next_load]] {
-                    return load(sequence_, pair, setup_.camera);
-                });
+                loading.push([this, &pair = pairs_[next_load]] { return load(source_, pair); });
             }
             writeSensorsUntil(toMrptTime(pairs_[i].color.stamp_s), next_sensor, writer);
             writeFrame(pairs_[i], loading.pop(), writer);
             progress.update(i + 1);
         }
         writeSensorsUntil(mrpt::Clock::time_point::max(), next_sensor, writer);
+        report_.misalignment_px = registration_.misalignment();
     }
 
     const ImportReport& report() const { return report_; }
@@ -120,6 +152,8 @@ class Import {
             countDamage(loaded.damage);
             return;
         }
+        const std::size_t stride = std::max<std::size_t>(1, pairs_.size() / frames_checked);
+        if (report_.frames % stride == 0) registration_.add(loaded.color, loaded.depth);
         const auto frame = makeRgbdObservation(setup_, pair.color.stamp_s);
         setColor(*frame, loaded.color);
         setDepth(*frame, loaded.depth);
@@ -138,8 +172,10 @@ class Import {
     }
 
     const RgbdSequence& sequence_;
-    const CameraSetup& setup_;
+    CameraSetup setup_;
     const ImportOptions& options_;
+    FrameSource source_;
+    RegistrationCheck registration_;
     ImportReport report_;
     std::vector<FramePair> pairs_;
     SensorEntries sensors_;
@@ -159,6 +195,16 @@ std::string tallyText(const std::string& name, const std::string& other, const I
     if (!reasons.empty()) text += " (" + reasons + ")";
     return text + "; " + std::to_string(tally.backwards) + " stamps go back, " +
            std::to_string(tally.repeated) + " repeat\n";
+}
+
+void warnOf(const Eigen::Vector2d& misalignment_px, bool is_registered) {
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "depth seems shifted against colour by %.0f px to the right and %.0f px down; %s",
+                  misalignment_px.x(), misalignment_px.y(),
+                  is_registered ? "check the cameras' calibrations and poses"
+                                : "register it with --register, see --help");
+    sayWarning(text);
 }
 
 }  // namespace
@@ -186,6 +232,7 @@ ImportReport importSequence(const RgbdSequence& sequence, const CameraSetup& set
     Import import(sequence, setup, options);
     writeRawlog(rawlog_path, options.storage, [&](RawlogWriter& writer) { import.write(writer); });
     ImportReport report = import.report();
+    if (report.misalignment_px) warnOf(*report.misalignment_px, options.depth_camera.has_value());
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;

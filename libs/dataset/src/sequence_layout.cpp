@@ -110,7 +110,7 @@ std::optional<SequenceLayout> layoutOf(const std::string& folder) {
     const fs::path path(folder);
     const auto has = [&](const char* name) { return fs::exists(path / name); };
     if (!fs::is_directory(path)) return std::nullopt;
-    if (has("rgb.txt") || has("depth.txt")) {
+    if (has("rgb.txt") && has("depth.txt")) {
         const std::string name = fs::weakly_canonical(path).filename();
         if (has("calibration.txt")) return SequenceLayout::Eth3d;
         return name.find("bonn") == std::string::npos ? SequenceLayout::Tum : SequenceLayout::Bonn;
@@ -124,6 +124,9 @@ std::optional<SequenceLayout> layoutOf(const std::string& folder) {
 SequenceLayout detectLayout(const std::string& folder) {
     checkSequenceFolder(folder);
     const auto layout = layoutOf(folder);
+    const bool has_a_list =
+        fs::exists(fs::path(folder) / "rgb.txt") || fs::exists(fs::path(folder) / "depth.txt");
+    if (!layout && has_a_list) return SequenceLayout::Tum;
     if (!layout) {
         throw Error("'" + folder +
                         "' has no rgb.txt and depth.txt, no associations.txt, no color/ and depth/ "

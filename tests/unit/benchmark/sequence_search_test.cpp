@@ -20,10 +20,12 @@ std::vector<std::string> namesOf(const std::vector<FoundSequence>& sequences) {
 class Search : public ::testing::Test {
   protected:
     void SetUp() override {
-        folder_.write("all/fr1_desk/rgb.txt", "");
+        for (const char* folder : {"all/fr1_desk/", "all/two/a/"}) {
+            folder_.write(folder + std::string("rgb.txt"), "");
+            folder_.write(folder + std::string("depth.txt"), "");
+        }
         folder_.write("all/fr1_desk/rgb/1.png", "");
         folder_.write("all/fr1_desk.tgz", "");
-        folder_.write("all/two/a/depth.txt", "");
         folder_.write("all/two/b.tgz", "");
         folder_.write("all/c.rawlog", "");
         folder_.write("all/notes.txt", "");

@@ -14,6 +14,7 @@
 #include "../../support/tum_folder.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/depth_registration.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
@@ -299,6 +300,43 @@ TEST(RawlogOfRealFrames, roundTripKeepsEveryBit) {
         EXPECT_EQ(after.truth[i].stamp_s, before.truth[i].stamp_s);
         EXPECT_EQ(after.truth[i].T_world_cam.t, before.truth[i].T_world_cam.t);
     }
+}
+
+/** A depth camera with other pixels, turned a little against the colour camera. */
+CameraSetup depthCamera() {
+    CameraSetup setup;
+    setup.camera = Camera{24, 18, 22, 22, 11.5, 8.5, {}};
+    setup.depth_units = 1000;
+    setup.T_base_sensor = {rotationExp({0.05, 0.02, 0}), {0.1, 0.03, 0.6}};
+    return setup;
+}
+
+TEST_F(RawlogTest, depthOfAnotherCameraIsWarpedToColour) {
+    small_sequence::make(folder_, "s", 2);
+    const CameraSetup color_camera = readCameraFile(folder_ / "s/camera.ini");
+    const CameraSetup depth_camera = depthCamera();
+    const cv::Mat seen(18, 24, CV_16UC1, cv::Scalar(2000));
+    for (int i = 0; i < 2; ++i) cv::imwrite(folder_ / ("s/" + small_sequence::depthFile(i)), seen);
+    ImportOptions options;
+    options.depth_camera = depth_camera;
+    importSequence(readTumSequence(folder_ / "s"), color_camera, folder_ / "s.rawlog", options);
+    const SE3 T_color_depth = T_optical_from_mrpt * color_camera.T_base_sensor.inverse() *
+                              depth_camera.T_base_sensor * T_optical_from_mrpt.inverse();
+    const cv::Mat expected =
+        DepthRegistration(depth_camera.camera, color_camera.camera, T_color_depth, 0.001)(seen);
+    RawlogReader reader(folder_ / "s.rawlog");
+    int frames = 0;
+    while (const auto observation = reader.next()) {
+        const auto frame =
+            std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation);
+        if (!frame) continue;
+        const RgbdImage image = toRgbdImage(frame);
+        EXPECT_EQ(cv::norm(image.depth, expected, cv::NORM_INF), 0);
+        EXPECT_FLOAT_EQ(image.depth_unit_m, 0.001);
+        EXPECT_GT(cv::countNonZero(image.depth), 100);
+        ++frames;
+    }
+    EXPECT_EQ(frames, 2);
 }
 
 TEST_F(RawlogTest, importIsTheSameWithAnyNumberOfThreads) {

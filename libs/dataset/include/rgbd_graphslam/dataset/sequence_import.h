@@ -1,6 +1,8 @@
 /** TUM folder to rawlog. */
 #pragma once
+#include <Eigen/Core>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "rgbd_graphslam/dataset/camera_file.h"
@@ -17,6 +19,10 @@ struct ImportOptions {
     bool strict = false;
     /** Frames whose image is damaged are left out and counted instead of an error. */
     bool skip_damaged = false;
+    /** The camera that took the depth images, when they are not registered to colour: they are
+     *  warped then. Its pose and the colour camera's on the robot tell how they lie to each other;
+     *  its depth unit is that of the images. */
+    std::optional<CameraSetup> depth_camera;
     /** Threads that decode images. */
     int threads = 2;
 };
@@ -39,6 +45,9 @@ struct ImportReport {
     /** Frames written, and pairs left out because an image of theirs is damaged. */
     std::size_t frames = 0, damaged = 0;
     std::size_t imu = 0, odometry = 0, truth = 0;
+    /** By how many pixels depth seems to lie right of and below its place in colour; nothing when
+     *  it lies well or nothing can be told. */
+    std::optional<Eigen::Vector2d> misalignment_px;
     /** Stamps of the first and last frame, UNIX time. */
     double first_stamp_s = 0, last_stamp_s = 0;
     /** Duration of the import. */

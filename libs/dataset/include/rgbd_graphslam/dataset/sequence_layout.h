@@ -37,7 +37,8 @@ SequenceLayout layoutByName(const std::string& name);
 /** The layout that the names in a folder speak of. */
 std::optional<SequenceLayout> layoutOf(const std::string& folder);
 
-/** As layoutOf.
+/** As layoutOf; a folder with but one of TUM's two lists counts as TUM's, so that reading it names
+ *  what is missing.
  *  \throws Error when there is no such folder or it is of none of the layouts */
 SequenceLayout detectLayout(const std::string& folder);
 

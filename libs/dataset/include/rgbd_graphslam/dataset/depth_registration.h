@@ -1,0 +1,35 @@
+/** Depth as another camera would see it. */
+#pragma once
+#include <Eigen/Core>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "rgbd_graphslam/geometry/camera.h"
+#include "rgbd_graphslam/geometry/se3.h"
+
+namespace rgbd_graphslam {
+
+/** Warps images of a depth camera to a colour camera beside it. */
+class DepthRegistration {
+  public:
+    /** \param T_color_depth from the depth camera's optical frame to the colour camera's
+     *  \param unit_m metres a unit of depth */
+    DepthRegistration(const Camera& depth, const Camera& color, const SE3& T_color_depth,
+                      double unit_m);
+
+    /** Each reading goes where colour sees it, as large as colour sees its pixel; of several at one
+     *  place the nearest stays. What depth could not see behind things has no reading.
+     *  \param depth CV_16UC1 of the depth camera's size
+     *  \return CV_16UC1 of the colour camera's size, in the same unit */
+    cv::Mat operator()(const cv::Mat& depth) const;
+
+  private:
+    void place(const Eigen::Vector3d& point_m, double reach_x, double reach_y, cv::Mat1w& to) const;
+
+    Camera depth_, color_;
+    SE3 T_color_depth_;
+    double unit_m_;
+    std::vector<Eigen::Vector3d> rays_;  // of the depth camera, z = 1, row by row
+};
+
+}  // namespace rgbd_graphslam
