@@ -27,7 +27,7 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_option("--set", request.run.assignments, "Section.key=value over them; repeatable")
         ->allow_extra_args(false);
     app.add_option("--jobs", request.jobs,
-                   "Sequences at a time; 0: one for each two processors and 1 GB of free memory")
+                   "Sequences at a time; 0: one for each two processors and 2 GB of free memory")
         ->check(CLI::Range(0, 1024))
         ->capture_default_str();
     app.add_option("--only", args.share,

@@ -6,7 +6,7 @@ file(READ ${SCRATCH}.1 page)
 string(REPLACE "\\-" "-" page "${page}")
 execute_process(COMMAND ${APP} --print-bash-completion OUTPUT_FILE ${SCRATCH}.bash)
 
-string(REGEX MATCHALL "\n  [^\n]*--[a-z][a-z-]*" lines "${help}")
+string(REGEX MATCHALL "\n  (-[a-z],)?--[a-z][a-z-]*" lines "${help}")
 if(NOT lines)
     message(SEND_ERROR "--help of ${name} shows no option:\n${help}")
 endif()

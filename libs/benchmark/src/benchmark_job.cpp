@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int processors_a_job = 2;
-constexpr double gigabytes_a_job = 1;
+constexpr double gigabytes_a_job = 2;
 
 double freeGigabytes() {
     std::ifstream in("/proc/meminfo");

@@ -18,7 +18,7 @@ struct BenchmarkRequest {
     SequenceRunOptions run;
 };
 
-/** Sequences that run at a time when nobody says: two processors and 1 GB of free memory each. */
+/** Sequences that run at a time when nobody says: two processors and 2 GB of free memory each. */
 int affordableJobs();
 
 /** Runs all sequences of the share that have no up-to-date result yet, then writes the report over
