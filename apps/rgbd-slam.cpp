@@ -12,9 +12,10 @@ namespace {
 constexpr int interrupted_exit_code = 130;
 
 struct Arguments {
-    std::string ini, rawlog, out_folder;
+    std::string ini, rawlog, out_folder, map_folder;
     std::vector<std::string> assignments;
     int threads = 0, max_frames = 0;
+    bool localize = false, extend = false;
     bool no_maps = false, profile = false, print_config = false;
 };
 
@@ -22,6 +23,14 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_option("INI", args.ini, "Settings, e.g. ini/default.ini");
     app.add_option("RAWLOG", args.rawlog, "Rawlog with RGB-D frames");
     app.add_option("-o,--out", args.out_folder, "Folder for the results, made where missing");
+    auto* const map =
+        app.add_option("--map", args.map_folder, "Start from the map of an earlier run's folder");
+    auto* const localize = app.add_flag("--localize", args.localize,
+                                        "With --map: find every frame in it, leave it as it is");
+    app.add_flag("--extend", args.extend, "With --map: add what this rawlog shows to it")
+        ->needs(map)
+        ->excludes(localize);
+    localize->needs(map);
     app.add_option("--set", args.assignments, "Section.key=value instead of the ini's; repeatable")
         ->allow_extra_args(false);
     app.add_option("--threads", args.threads, "As --set RunOptions.threads=N");
@@ -56,7 +65,11 @@ int run(const CLI::App& app, const Arguments& args) {
         throw Error("the rawlog or the output folder is missing",
                     "call rgbd-slam INI RAWLOG -o OUT, see --help");
     }
-    const SlamJob job{args.rawlog, args.out_folder, options};
+    if (!args.map_folder.empty() && !args.localize && !args.extend) {
+        throw Error("--map alone does not say what to do with it", "add --localize or --extend");
+    }
+    const SlamJob job{args.rawlog, args.out_folder, options, args.map_folder,
+                      args.extend ? MapUse::Extend : MapUse::Localise};
     const JobReport report = runSlamJob(job);
     if (args.profile) std::fputs((profileTable(report) + "\n").c_str(), stdout);
     std::fputs(resultTable(job, report).c_str(), stdout);

@@ -129,6 +129,37 @@ TEST_F(FaultSlam, cutRawlogKeepsWhatCameBeforeAndSaysWhere) {
     EXPECT_THAT(readText(out_ + "/summary.json"), HasSubstr("cut off"));
 }
 
+TEST_F(FaultSlam, badMapsAreRefusedBeforeAnythingIsWritten) {
+    ASSERT_EQ(slam().exit_code, 0);
+    const std::string map = out_ + "/map.sparse", whole = readText(map), out2 = folder_ / "out2";
+    const auto localise = [&](const std::string& folder) {
+        return runProgram("rgbd-slam", arguments(default_ini, rawlog_, out2) + "--localize --map " +
+                                           inQuotes(folder));
+    };
+    EXPECT_EQ(localise(out_).exit_code, 0);
+    fs::remove_all(out2);
+    expectRefused(localise(folder_ / "nowhere"), "nowhere/map.sparse");
+    cutFile(map, 0.7);
+    expectRefused(localise(out_), "cut off or damaged");
+    folder_.write("out/map.sparse", "RGBDMAP\n\7" + whole.substr(9));
+    expectRefused(localise(out_), "version 7");
+    folder_.write("out/map.sparse", whole.substr(0, 5000) + "?" + whole.substr(5001));
+    expectRefused(localise(out_), "its check sum is wrong");
+    EXPECT_FALSE(fs::exists(out2));
+}
+
+TEST_F(FaultSlam, mapAloneDoesNotSayWhatToDo) {
+    expectRefused(slam("--map " + inQuotes(out_)), "--localize or --extend");
+}
+
+TEST_F(FaultSlam, mapOfAnotherPyramidIsRefused) {
+    ASSERT_EQ(slam().exit_code, 0);
+    expectRefused(runProgram("rgbd-slam", arguments(default_ini, rawlog_, folder_ / "out2") +
+                                              "--set FeatureOptions.levels=4 --extend --map " +
+                                              inQuotes(out_)),
+                  "6 pyramid levels");
+}
+
 /** \return the exit code of a run that gets Ctrl-C after `delay_s` */
 int interruptAfter(double delay_s, const std::string& arguments, const std::string& err) {
     const std::string command = inQuotes(RGBD_BINARY_DIR "/bin/rgbd-slam") + " " + arguments +

@@ -31,7 +31,7 @@ std::vector<double> numbersOf(std::string text, const std::string& path, int lin
 
 }  // namespace
 
-Trajectory readTumTrajectory(const std::string& path) {
+Trajectory readTumPoses(const std::string& path) {
     std::ifstream in(path);
     if (!in) throw Error("cannot read the trajectory '" + path + "'", "check the name");
     Trajectory trajectory;
@@ -46,6 +46,11 @@ Trajectory readTumTrajectory(const std::string& path) {
         trajectory.push_back({n[0], SE3(q, {n[1], n[2], n[3]})});
     }
     if (trajectory.empty()) throw Error("no pose in '" + path + "'", "give a TUM trajectory");
+    return trajectory;
+}
+
+Trajectory readTumTrajectory(const std::string& path) {
+    Trajectory trajectory = readTumPoses(path);
     std::stable_sort(trajectory.begin(), trajectory.end(),
                      [](const auto& a, const auto& b) { return a.stamp_s < b.stamp_s; });
     return trajectory;

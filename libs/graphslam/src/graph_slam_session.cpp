@@ -61,19 +61,33 @@ class KeyframeEngine : public mrpt::graphslam::CGraphSlamEngine<KeyframeGraph> {
         m_time_logger.disable();  // it would print its table at the end
     }
     KeyframeGraph& graph() { return m_graph; }
+
+    /** The graph was filled with nodes; the next one is no first one. */
+    void continueAfterNodes() {
+        m_nodeID_max = m_graph.nodeCount() - 1;
+        m_is_first_time_node_reg = false;
+    }
 };
 
 }  // namespace
 
 class GraphSlamSession::Implementation {
   public:
-    Implementation(const SlamOptions& options, const CObservation3DRangeScan& first_frame) {
+    Implementation(const SlamOptions& options, const CObservation3DRangeScan& first_frame,
+                   std::optional<StartMap> start) {
         {
             const StandardStreamsAway away;
             engine_ = std::make_unique<KeyframeEngine>(nodes_, edges_, optimizer_);
         }
         shared().options = options;
-        startSlam(shared(), first_frame);
+        if (start) {
+            startSlam(graph(), first_frame, std::move(*start));
+        } else {
+            startSlam(shared(), first_frame);
+        }
+        if (graph().nodes.empty()) return;
+        nodes_.continueAfter(graph().nodeCount() - 1);
+        engine_->continueAfterNodes();
     }
 
     SharedSlam& shared() { return *engine_->graph().shared; }
@@ -108,7 +122,13 @@ class GraphSlamSession::Implementation {
 
 GraphSlamSession::GraphSlamSession(const SlamOptions& options,
                                    const CObservation3DRangeScan& first_frame)
-    : impl_(std::make_unique<Implementation>(options, first_frame)) {}
+    : impl_(std::make_unique<Implementation>(options, first_frame, std::nullopt)) {}
+
+GraphSlamSession::GraphSlamSession(const SlamOptions& options,
+                                   const CObservation3DRangeScan& first_frame, MapSnapshot map,
+                                   MapUse use)
+    : impl_(std::make_unique<Implementation>(options, first_frame, StartMap{std::move(map), use})) {
+}
 
 GraphSlamSession::~GraphSlamSession() = default;
 

@@ -35,6 +35,27 @@ void startSlam(SharedSlam& shared, const mrpt::obs::CObservation3DRangeScan& fra
     shared.slam = std::make_unique<VisualSlam>(shared.options, cameraOf(frame));
 }
 
+void startSlam(KeyframeGraph& graph, const mrpt::obs::CObservation3DRangeScan& frame,
+               StartMap start) {
+    SharedSlam& shared = *graph.shared;
+    shared.T_base_cam = cameraOnRobot(frame);
+    shared.slam = std::make_unique<VisualSlam>(shared.options, cameraOf(frame),
+                                               std::move(start.map), start.use);
+    if (start.use == MapUse::Localise) return;
+    for (const KeyframeView& keyframe : shared.slam->keyframes()) {
+        graph.nodes[keyframe.id] = {};
+        if (keyframe.id == 0) continue;
+        graph.insertEdge(keyframe.id - 1, keyframe.id,
+                         robotEdge(shared.slam->odometryEdge(keyframe.id), shared.T_base_cam));
+    }
+    for (const PoseEdge& edge : shared.slam->poseGraph().edges) {
+        if (edge.kind != EdgeKind::Loop) continue;
+        graph.insertEdge(edge.from, edge.to, robotEdge(edge, shared.T_base_cam));
+        ++shared.loop_edges;
+    }
+    updateNodes(graph);
+}
+
 mrpt::poses::CPose3D robotPose(const SE3& T_world_cam, const SE3& T_base_cam) {
     return toCPose3D(T_base_cam * T_world_cam * T_base_cam.inverse());
 }

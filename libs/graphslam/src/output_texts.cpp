@@ -63,6 +63,20 @@ Json loopEdgesJson(const JobReport& report) {
     return edges;
 }
 
+Json mapJson(const SlamJob& job) {
+    if (job.map_folder.empty()) return nullptr;
+    return {{"folder", std::filesystem::absolute(job.map_folder).lexically_normal().string()},
+            {"use", job.localises() ? "localise" : "extend"}};
+}
+
+Json earlierJson(const JobReport& report) {
+    Json sessions = Json::array();
+    for (const EarlierSession& session : report.earlier) {
+        sessions.push_back({{"rawlog", session.rawlog}, {"keyframes", session.keyframes}});
+    }
+    return sessions;
+}
+
 }  // namespace
 
 StageFigures figuresOf(const std::vector<double>& ms) {
@@ -92,6 +106,8 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"version", RGBD_VERSION},
         {"config_hash", configHash(job.options)},
         {"rawlog", std::filesystem::absolute(job.rawlog).lexically_normal().string()},
+        {"map", mapJson(job)},
+        {"earlier_sessions", earlierJson(report)},
         {"interrupted", report.interrupted},
         {"damage", report.damage.empty() ? Json(nullptr) : Json(report.damage)},
         {"warnings", report.warnings},

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
 #include "interruption.h"
@@ -14,6 +15,7 @@
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/graphslam/frame_stream.h"
 #include "rgbd_graphslam/graphslam/graph_slam_session.h"
+#include "rgbd_graphslam/graphslam/sparse_map_file.h"
 #include "rgbd_graphslam/mapping/map_builder.h"
 #include "rgbd_graphslam/report/keyframe_sheet.h"
 #include "rgbd_graphslam/report/run_report.h"
@@ -57,12 +59,30 @@ Trajectory chained(Trajectory keyframes, const std::vector<SE3>& T_previous_keyf
     return keyframes;
 }
 
+constexpr const char* sparse_map_name = "map.sparse";
+
+std::optional<SparseMap> readStart(const SlamJob& job) {
+    if (job.map_folder.empty()) return std::nullopt;
+    return readSparseMap(job.map_folder + "/" + sparse_map_name);
+}
+
+GraphSlamSession makeSession(const SlamJob& job, const FrameStream& stream,
+                             std::optional<SparseMap>& start) {
+    if (!start) return {job.options.slam, stream.firstFrame()};
+    return {job.options.slam, stream.firstFrame(), std::move(start->snapshot), job.map_use};
+}
+
 class Job {
   public:
-    explicit Job(const SlamJob& job)
+    Job(const SlamJob& job, std::optional<SparseMap> start)
         : job_(job),
+          start_(std::move(start)),
           stream_(job.rawlog, job.options.run),
-          session_(job.options.slam, stream_.firstFrame()) {}
+          session_(makeSession(job, stream_, start_)) {
+        if (!start_ || job.localises()) return;
+        for (const KeyframeView& keyframe : session_.slam().keyframes()) noteKeyframe(keyframe.id);
+        first_keyframe_ = static_cast<int>(T_previous_keyframe_.size());
+    }
 
     ~Job() { stream_.stop(); }  // frames read ahead are prepared by the session, which goes first
     Job(const Job&) = delete;
@@ -79,7 +99,7 @@ class Job {
   private:
     void track();
     void trackOne(const StreamedFrame& frame);
-    void noteKeyframe(int keyframe, const StreamedFrame& frame);
+    void noteKeyframe(int keyframe);
     std::optional<StreamedFrame> nextFrame();
     bool finished() const;
     std::string progressNote() const;
@@ -90,18 +110,23 @@ class Job {
     void collectStages();
 
     MapInputs mapInputs() const;
+    std::vector<MapSession> sessions() const;
     void write();
+    void writeLocalisation() const;
+    void writeMap();
     void writePoses(const MapInputs& upright, const SE3& T_up_world) const;
     void writeReport();
     std::string path(const char* name) const { return job_.out_folder + "/" + name; }
 
     const SlamJob& job_;
+    std::optional<SparseMap> start_;  // its snapshot is the session's
     FrameStream stream_;
     GraphSlamSession session_;
     Interruption interruption_;
     WarningRecord warnings_;
     JobReport report_;
     std::optional<double> first_stamp_s_, last_stamp_s_;
+    int first_keyframe_ = 0;  // of this rawlog
     std::vector<SE3> T_previous_keyframe_;  // one a keyframe, the identity for the first
     KeyframeSheet keyframe_sheet_;
     Trajectory truth_;  // beside the estimate, in its world
@@ -150,14 +175,15 @@ void Job::trackOne(const StreamedFrame& frame) {
     if (!first_stamp_s_) first_stamp_s_ = stamp_s;
     ++report_.frames;
     const auto keyframe = session_.step(frame.observation, frame.prepared).keyframe;
-    if (keyframe) noteKeyframe(*keyframe, frame);
+    if (!keyframe) return;
+    noteKeyframe(*keyframe);
+    keyframe_sheet_.add(*keyframe, *last_stamp_s_ - *first_stamp_s_,
+                        toRgbdImage(frame.observation).color);
 }
 
-void Job::noteKeyframe(int keyframe, const StreamedFrame& frame) {
+void Job::noteKeyframe(int keyframe) {
     T_previous_keyframe_.push_back(keyframe > 0 ? session_.slam().odometryEdge(keyframe).T_from_to
                                                 : SE3());
-    keyframe_sheet_.add(keyframe, *last_stamp_s_ - *first_stamp_s_,
-                        toRgbdImage(frame.observation).color);
 }
 
 std::string Job::progressNote() const {
@@ -170,6 +196,11 @@ void Job::describe() {
     report_.interrupted = interruption_.requested();
     const VisualSlam& slam = session_.slam();
     countFrames();
+    const auto all = sessions();
+    for (std::size_t s = 0; s + 1 < all.size(); ++s) {
+        const int keyframes = all[s + 1].first_keyframe - all[s].first_keyframe;
+        report_.earlier.push_back({all[s].rawlog, static_cast<std::size_t>(keyframes)});
+    }
     for (const KeyframeView& keyframe : slam.keyframes()) {
         ++report_.keyframes;
         report_.culled_keyframes += keyframe.culled;
@@ -213,6 +244,7 @@ void Job::collectStages() {
 MapInputs Job::mapInputs() const {
     MapInputs inputs;
     inputs.rawlog = job_.rawlog;
+    inputs.earlier = report_.earlier;
     inputs.trajectory = located(session_.slam().frames());
     for (const KeyframeView& keyframe : session_.slam().keyframes()) {
         inputs.keyframes.push_back({keyframe.stamp_s, keyframe.T_world_cam});
@@ -224,6 +256,15 @@ MapInputs Job::mapInputs() const {
         inputs.keyframes_before_loops = chained(inputs.keyframes, T_previous_keyframe_);
     }
     return inputs;
+}
+
+/** The earlier ones' and this one. */
+std::vector<MapSession> Job::sessions() const {
+    std::vector<MapSession> all;
+    if (start_) all = start_->sessions;
+    const std::string rawlog = std::filesystem::absolute(job_.rawlog).lexically_normal().string();
+    all.push_back({rawlog, first_keyframe_});
+    return all;
 }
 
 void Job::writePoses(const MapInputs& upright, const SE3& T_up_world) const {
@@ -253,6 +294,29 @@ void Job::writeReport() {
 void Job::write() {
     writeTextAtomically(path("config.ini"), configText(job_.options));
     writeTextAtomically(path("frames.csv"), framesCsv(session_.slam().frames()));
+    if (job_.localises()) {
+        writeLocalisation();
+    } else {
+        writeMap();
+    }
+    report_.peak_memory_mb = peakMemoryMb();
+    report_.warnings = warnings_.warnings();
+    writeTextAtomically(path("summary.json"), summaryJson(job_, report_));
+    if (!job_.localises()) writeReport();
+}
+
+void Job::writeLocalisation() const {
+    Trajectory trajectory = located(session_.slam().frames());
+    if (trajectory.empty()) {
+        throw Error("none of the " + std::to_string(report_.frames) + " frames of '" + job_.rawlog +
+                        "' was found in the map of '" + job_.map_folder + "'",
+                    "check that both show the same place, and the calibration");
+    }
+    for (StampedPose& pose : trajectory) pose.T_world_cam = start_->T_up_world * pose.T_world_cam;
+    writeTextAtomically(path("trajectory.txt"), toTumText(trajectory));
+}
+
+void Job::writeMap() {
     writeTextAtomically(path("covisibility.csv"), covisibilityCsv(report_.covisibility_edges));
     const MapInputs inputs = mapInputs();
     if (inputs.keyframes.empty()) {
@@ -260,23 +324,23 @@ void Job::write() {
                         "' could start a map",
                     "check depth scale and calibration, and that the camera sees texture");
     }
-    const SE3 T_up_world = uprightFromWorld(inputs, job_.options.maps);
+    const SE3 T_up_world =
+        start_ ? start_->T_up_world : uprightFromWorld(inputs, job_.options.maps);
     const MapInputs upright = transformed(T_up_world, inputs);
     writePoses(upright, T_up_world);
+    writeSparseMap(path(sparse_map_name),
+                   {session_.slam().snapshot(), T_up_world, configHash(job_.options), sessions()});
     const Stopwatch watch;
     if (job_.options.run.dense_maps) writeMaps(upright, job_.options.maps, job_.out_folder);
     report_.maps_wall_s = watch.seconds();
-    report_.peak_memory_mb = peakMemoryMb();
-    report_.warnings = warnings_.warnings();
-    writeTextAtomically(path("summary.json"), summaryJson(job_, report_));
-    writeReport();
 }
 
 }  // namespace
 
 JobReport runSlamJob(const SlamJob& job) {
+    auto start = readStart(job);
     makeWritableFolder(job.out_folder);
-    return Job(job).run();
+    return Job(job, std::move(start)).run();
 }
 
 }  // namespace rgbd_graphslam

@@ -124,6 +124,10 @@ void checkInputs(const MapInputs& inputs) {
     if (inputs.keyframes.empty())
         throw Error("there is no keyframe to make maps of", "check the trajectory");
     const int count = static_cast<int>(inputs.keyframes.size());
+    std::size_t earlier = 0;
+    for (const EarlierSession& session : inputs.earlier) earlier += session.keyframes;
+    if (earlier > inputs.keyframes.size())
+        throw Error("earlier sessions name more keyframes than there are");
     for (const MapLoopEdge& loop : inputs.loops) {
         if (std::min(loop.from, loop.to) >= 0 && std::max(loop.from, loop.to) < count) continue;
         throw Error("a loop names keyframe " + std::to_string(std::max(loop.from, loop.to)) +
@@ -153,6 +157,30 @@ struct Maps {
                     options);
     }
 };
+
+std::size_t addSession(Maps& maps, const MapOptions& options, const std::string& rawlog,
+                       const Trajectory& keyframes) {
+    return forEachKeyframe(rawlog, keyframes, "mapping",
+                           [&](const Keyframe3D& keyframe) { maps.add(keyframe, options); });
+}
+
+/** \return how many keyframes were added */
+std::size_t addSessions(Maps& maps, const MapInputs& inputs, const MapOptions& options) {
+    std::size_t added = 0;
+    auto begin = inputs.keyframes.begin();
+    for (const EarlierSession& session : inputs.earlier) {
+        const Trajectory keyframes(begin, begin + static_cast<std::ptrdiff_t>(session.keyframes));
+        begin += static_cast<std::ptrdiff_t>(session.keyframes);
+        if (keyframes.empty()) continue;
+        try {
+            added += addSession(maps, options, session.rawlog, keyframes);
+        } catch (const Error& e) {
+            sayWarning(std::string("an earlier session is left out of the maps: ") + e.what());
+        }
+    }
+    if (begin == inputs.keyframes.end()) return added;
+    return added + addSession(maps, options, inputs.rawlog, {begin, inputs.keyframes.end()});
+}
 
 MapSummary writeFiles(const MapInputs& inputs, const Maps& maps, const std::string& folder) {
     const auto path = [&](const char* name) {
@@ -208,9 +236,8 @@ MapSummary writeMaps(const MapInputs& inputs, const MapOptions& options,
     checkInputs(inputs);
     makeWritableFolder(out_folder);
     Maps maps;
-    const std::size_t found =
-        forEachKeyframe(inputs.rawlog, inputs.keyframes, "mapping",
-                        [&](const Keyframe3D& keyframe) { maps.add(keyframe, options); });
+    const std::size_t found = addSessions(maps, inputs, options);
+    if (found == 0) throw Error("no rawlog of the keyframes is left", "give --rawlog FILE");
     MapSummary summary = writeFiles(inputs, maps, out_folder);
     summary.keyframes = found;
     summary.insert_ms = maps.insert_ms / static_cast<double>(found);

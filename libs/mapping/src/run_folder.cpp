@@ -43,6 +43,15 @@ std::vector<MapLoopEdge> loopsOf(const nlohmann::json& summary) {
     return loops;
 }
 
+std::vector<EarlierSession> earlierSessionsOf(const nlohmann::json& summary) {
+    std::vector<EarlierSession> sessions;
+    for (const auto& session : summary.value("earlier_sessions", nlohmann::json::array())) {
+        sessions.push_back(
+            {session.at("rawlog").get<std::string>(), session.at("keyframes").get<std::size_t>()});
+    }
+    return sessions;
+}
+
 }  // namespace
 
 MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
@@ -51,18 +60,19 @@ MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
         throw Error("'" + folder + "' is no folder", "give the output folder of rgbd-slam");
     const auto summary = readSummary(root / "summary.json");
     MapInputs inputs;
-    inputs.keyframes = readTumTrajectory((root / "keyframes.txt").string());
+    inputs.keyframes = readTumPoses((root / "keyframes.txt").string());
     inputs.trajectory = readTumTrajectory((root / "trajectory.txt").string());
     inputs.rawlog = rawlog.empty() ? findRawlog(summary, root) : rawlog;
     try {
         inputs.loops = loopsOf(summary);
+        inputs.earlier = earlierSessionsOf(summary);
     } catch (const nlohmann::json::exception&) {
-        throw Error("'loop_edges' in '" + (root / "summary.json").string() +
-                        "' is no list of [from, to, inliers]",
+        throw Error("'loop_edges' or 'earlier_sessions' in '" + (root / "summary.json").string() +
+                        "' is not what rgbd-slam writes",
                     "run rgbd-slam again");
     }
     const fs::path before = root / "keyframes_before_loops.txt";
-    if (fs::exists(before)) inputs.keyframes_before_loops = readTumTrajectory(before.string());
+    if (fs::exists(before)) inputs.keyframes_before_loops = readTumPoses(before.string());
     return inputs;
 }
 

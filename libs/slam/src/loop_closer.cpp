@@ -19,6 +19,11 @@ constexpr int fused_neighbours = 10;
 /** What an edge is worth when two keyframes share too little to tell: 5 cm, 3 degrees. */
 const Vector6d weak_sigma = (Vector6d() << 0.05, 0.05, 0.05, 0.05, 0.05, 0.05).finished();
 constexpr int fewest_for_information = 10;
+/** The same where nothing was measured between them: 10 m, 3 rad. */
+const Vector6d unknown_sigma = (Vector6d() << 10, 10, 10, 3, 3, 3).finished();
+/** What ties a keyframe that does not follow the one before. */
+constexpr int fewest_that_tie = 15;
+
 /** Disagreement of a loop with the map that needs no long path to explain. */
 constexpr double least_drift_m = 0.3, least_drift_rad = 0.3;
 /** Farther apart, two views have hardly a descriptor in common. */
@@ -27,6 +32,10 @@ constexpr double widest_view_m = 4, widest_view_rad = 1.2;
 constexpr double contender_share = 0.5;
 /** A loop is unheeded if the optimised graph leaves more than this of what it asked. */
 constexpr double unheeded_m = 0.05, unheeded_share = 0.25;
+
+Matrix6d informationFrom(const Vector6d& sigma) {
+    return sigma.cwiseProduct(sigma).cwiseInverse().asDiagonal();
+}
 
 /** Some of a frame's keypoints. */
 struct Selection {
@@ -104,6 +113,13 @@ std::vector<int> LoopCloser::candidatesFor(int keyframe) const {
         if (!connected) candidates.push_back(vote.keyframe);
     }
     return candidates;
+}
+
+void LoopCloser::restore(std::vector<PoseEdge> loops) {
+    loops_ = std::move(loops);
+    for (const Keyframe& keyframe : map_.keyframes()) {
+        if (!keyframe.culled) index_.insert(keyframe.id, placeDescriptors(keyframe.id));
+    }
 }
 
 /** Of places that look alike, the one that asks for least drift among those with many inliers;
@@ -229,7 +245,7 @@ Matrix6d LoopCloser::informationOf(int keyframe, const std::vector<int>& landmar
     const Keyframe& k = map_.keyframe(keyframe);
     const auto matches = matchesOf(k.frame, landmarks, map_, options_.sensor);
     if (static_cast<int>(matches.size()) < fewest_for_information) {
-        return weak_sigma.cwiseProduct(weak_sigma).cwiseInverse().asDiagonal();
+        return informationFrom(weak_sigma);
     }
     // Both keyframes measure the landmarks, so the relative pose has twice the variance of one.
     return 0.5 * solvePose(camera_, matches, k.T_cam_world).information;
@@ -240,15 +256,22 @@ PoseEdge LoopCloser::odometryEdge(int keyframe) const {
     edge.from = keyframe - 1;
     edge.to = keyframe;
     edge.T_from_to = map_.T_cam_world(edge.from) * map_.T_cam_world(keyframe).inverse();
-    std::vector<int> shared = map_.keyframe(keyframe).landmarks;
-    for (int& landmark : shared) {
-        if (landmark == no_landmark || map_.keypointOf(landmark, edge.from) >= 0) continue;
-        landmark = no_landmark;
-    }
+    const std::vector<int> shared = sharedLandmarks(keyframe, edge.from);
     edge.inliers = static_cast<int>(
         std::count_if(shared.begin(), shared.end(), [](int id) { return id != no_landmark; }));
-    edge.information = informationOf(keyframe, shared);
+    const bool measured = map_.keyframe(keyframe).follows || edge.inliers >= fewest_for_information;
+    edge.information = measured ? informationOf(keyframe, shared) : informationFrom(unknown_sigma);
     return edge;
+}
+
+/** Landmarks of a keyframe, one a keypoint, without those that the other does not see. */
+std::vector<int> LoopCloser::sharedLandmarks(int keyframe, int other) const {
+    std::vector<int> shared = map_.keyframe(keyframe).landmarks;
+    for (int& landmark : shared) {
+        if (landmark == no_landmark || map_.keypointOf(landmark, other) >= 0) continue;
+        landmark = no_landmark;
+    }
+    return shared;
 }
 
 PoseGraph LoopCloser::poseGraph() const {
@@ -257,9 +280,13 @@ PoseGraph LoopCloser::poseGraph() const {
     for (int k = 0; k < keyframes; ++k) graph.nodes.push_back(map_.T_cam_world(k).inverse());
     for (int k = 1; k < keyframes; ++k) {
         graph.edges.push_back(odometryEdge(k));
-        for (const Covisibility& c : map_.covisible(k, strong_covisibility)) {
+        const bool follows = map_.keyframe(k).follows;
+        const PoseEdge odometry = graph.edges.back();
+        for (const Covisibility& c :
+             map_.covisible(k, follows ? strong_covisibility : fewest_that_tie)) {
             if (c.keyframe >= k - 1) continue;
-            PoseEdge edge = graph.edges.back();
+            PoseEdge edge = odometry;
+            if (!follows) edge.information = informationOf(k, sharedLandmarks(k, c.keyframe));
             edge.from = c.keyframe;
             edge.to = k;
             edge.T_from_to = map_.T_cam_world(c.keyframe) * map_.T_cam_world(k).inverse();

@@ -9,8 +9,17 @@ SlamMap::SlamMap(double scale_factor, int levels) : log_scale_factor_(std::log(s
     for (int l = 0; l < levels; ++l) scale_.push_back(std::pow(scale_factor, l));
 }
 
-int SlamMap::addKeyframe(Frame frame, const SE3& T_cam_world) {
+void SlamMap::restore(std::vector<Keyframe> keyframes, std::vector<Landmark> landmarks) {
+    keyframes_ = std::move(keyframes);
+    landmarks_ = std::move(landmarks);
+    alive_ = landmarks_.size();
+    votes_.assign(keyframes_.size(), 0);
+}
+
+int SlamMap::addKeyframe(Frame frame, const SE3& T_cam_world, int part, bool follows) {
     Keyframe keyframe;
+    keyframe.part = part;
+    keyframe.follows = follows;
     keyframe.id = static_cast<int>(keyframes_.size());
     keyframe.landmarks.assign(frame.keypoints.size(), no_landmark);
     keyframe.frame = std::move(frame);

@@ -27,6 +27,28 @@ struct FrameRecord {
     std::optional<int> keyframe;
 };
 
+std::string pyramidText(int levels, double scale_factor) {
+    return std::to_string(levels) + " pyramid levels of factor " + std::to_string(scale_factor);
+}
+
+void checkFits(const MapSnapshot& map, const FeatureOptions& features, const Camera& camera,
+               MapUse use) {
+    if (map.levels != features.levels || map.scale_factor != features.scale_factor) {
+        throw Error("the map was made with " + pyramidText(map.levels, map.scale_factor) +
+                        ", the settings have " +
+                        pyramidText(features.levels, features.scale_factor),
+                    "use the config.ini of the map's folder");
+    }
+    const bool same_camera = map.camera.width == camera.width &&
+                             map.camera.height == camera.height && map.camera.fx == camera.fx &&
+                             map.camera.fy == camera.fy && map.camera.cx == camera.cx &&
+                             map.camera.cy == camera.cy;
+    if (use == MapUse::Extend && !same_camera) {
+        throw Error("the map was made by a camera of another calibration, so it cannot be extended",
+                    "localise in it, or make both rawlogs with one calibration");
+    }
+}
+
 }  // namespace
 
 const char* toString(FrameOrigin origin) {
@@ -53,6 +75,7 @@ class VisualSlam::Implementation {
           closer(options, camera, map),
           decision(options.keyframes) {}
 
+    void restore(MapSnapshot snapshot, MapUse use);
     TrackedFrame track(Frame frame);
     TrackedFrame view(const FrameRecord& record) const;
     void handOver();
@@ -67,13 +90,26 @@ class VisualSlam::Implementation {
     KeyframeDecision decision;
     std::vector<FrameRecord> records;
     int frames_since_keyframe = 0;
+    /** The map may not change. */
+    bool frozen = false;
+    /** Whether the way from the last keyframe was measured throughout. */
+    bool unbroken = true;
     mutable StageTimes times;
 
   private:
     void start(Frame frame, FrameRecord& record);
     void locate(Frame frame, FrameRecord& record);
-    int insertKeyframe(const Frame& frame, const LocatedFrame& located);
+    int insertKeyframe(const Frame& frame, const LocatedFrame& located, int part);
 };
+
+void VisualSlam::Implementation::restore(MapSnapshot snapshot, MapUse use) {
+    checkFits(snapshot, options.features, camera, use);
+    map.restore(std::move(snapshot.keyframes), std::move(snapshot.landmarks));
+    times.measure("place-index", [&] { closer.restore(std::move(snapshot.loops)); });
+    decision.reset(map.keyframes().back());
+    frozen = use == MapUse::Localise;
+    unbroken = false;
+}
 
 TrackedFrame VisualSlam::Implementation::track(Frame frame) {
     if (!records.empty() && frame.stamp_s <= records.back().stamp_s) {
@@ -103,7 +139,7 @@ void VisualSlam::Implementation::start(Frame frame, FrameRecord& record) {
         return;
     LocatedFrame located;
     located.landmarks.assign(keypoints.size(), no_landmark);
-    const int id = insertKeyframe(frame, located);
+    const int id = insertKeyframe(frame, located, 0);
     located.landmarks = map.keyframe(id).landmarks;
     record.origin = FrameOrigin::Tracked;
     record.keyframe = id;
@@ -119,18 +155,19 @@ void VisualSlam::Implementation::locate(Frame frame, FrameRecord& record) {
         handOver();
         times.measure("relocalise", [&] { located = closer.relocalise(frame, tracker); });
         record.origin = located ? FrameOrigin::Recovered : FrameOrigin::Lost;
-        if (located) tracker.forget();
+        tracker.forget();
+        unbroken = false;
     }
     if (!located) {
-        tracker.forget();
+        if (records.empty()) return;
         record.reference_keyframe = records.back().reference_keyframe;
         record.T_cam_reference = records.back().T_cam_reference;
         return;
     }
     int reference = map.observers(located->landmarks).front().keyframe;
-    if (decision.wants(map, *located, frames_since_keyframe)) {
+    if (!frozen && decision.wants(map, *located, frames_since_keyframe)) {
         handOver();
-        reference = insertKeyframe(frame, *located);
+        reference = insertKeyframe(frame, *located, map.keyframe(reference).part);
         record.keyframe = reference;
         located->landmarks = map.keyframe(reference).landmarks;
     }
@@ -140,10 +177,11 @@ void VisualSlam::Implementation::locate(Frame frame, FrameRecord& record) {
     tracker.setLast(std::move(frame), std::move(*located), reference, true);
 }
 
-int VisualSlam::Implementation::insertKeyframe(const Frame& frame, const LocatedFrame& located) {
+int VisualSlam::Implementation::insertKeyframe(const Frame& frame, const LocatedFrame& located,
+                                               int part) {
     int id = 0;
     times.measure("map", [&] {
-        id = map.addKeyframe(frame, located.T_cam_world);
+        id = map.addKeyframe(frame, located.T_cam_world, part, unbroken);
         for (std::size_t i = 0; i < located.landmarks.size(); ++i) {
             if (located.landmarks[i] == no_landmark) continue;
             map.addObservation(located.landmarks[i], id, static_cast<int>(i));
@@ -152,6 +190,7 @@ int VisualSlam::Implementation::insertKeyframe(const Frame& frame, const Located
     });
     decision.reset(map.keyframe(id));
     frames_since_keyframe = 0;
+    unbroken = true;
     return id;
 }
 
@@ -178,6 +217,12 @@ TrackedFrame VisualSlam::Implementation::view(const FrameRecord& record) const {
 
 VisualSlam::VisualSlam(const SlamOptions& options, const Camera& camera)
     : impl_(std::make_unique<Implementation>(options, camera)) {}
+
+VisualSlam::VisualSlam(const SlamOptions& options, const Camera& camera, MapSnapshot map,
+                       MapUse use)
+    : VisualSlam(options, camera) {
+    impl_->restore(std::move(map), use);
+}
 
 VisualSlam::~VisualSlam() = default;
 
@@ -214,7 +259,7 @@ void VisualSlam::correct(const std::vector<SE3>& T_world_keyframe) {
 
 void VisualSlam::finish() {
     impl_->handOver();
-    if (!impl_->options.mapper.final_adjustment) return;
+    if (impl_->frozen || !impl_->options.mapper.final_adjustment) return;
     impl_->times.measure("final-adjustment", [&] { impl_->mapper.adjustAll(final_iterations); });
 }
 
@@ -240,6 +285,11 @@ std::vector<LandmarkView> VisualSlam::landmarks() const {
         views.push_back({landmark.position, static_cast<int>(landmark.observations.size())});
     }
     return views;
+}
+
+MapSnapshot VisualSlam::snapshot() const {
+    return takeSnapshot(impl_->map, impl_->camera, impl_->options.features.scale_factor,
+                        impl_->closer.loops());
 }
 
 std::vector<VisualSlam::StageTime> VisualSlam::stageTimes() const {

@@ -1,6 +1,7 @@
 #include "rgbd_graphslam/graphslam/slam_job.h"
 
 #include <gtest/gtest.h>
+#include <mrpt/graphs/CNetworkOfPoses.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <algorithm>
@@ -11,6 +12,8 @@
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
+#include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/graphslam/sparse_map_file.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -30,19 +33,47 @@ class JobOnARawlog : public testing::Test {
     }
     ~JobOnARawlog() override { setVerbosity(Verbosity::Normal); }
 
-    /** With ground truth. */
-    void write(const std::vector<mrpt::obs::CObservation3DRangeScan::Ptr>& film) const {
+    /** With ground truth. \param first frame of the round trip that the film begins with */
+    void write(const std::vector<mrpt::obs::CObservation3DRangeScan::Ptr>& film,
+               int first = 0) const {
         writeRawlog(job_.rawlog, RawlogStorage::Embedded, [&](RawlogWriter& writer) {
             for (std::size_t i = 0; i < film.size(); ++i) {
                 mrpt::obs::CObservationRobotPose truth;
                 truth.sensorLabel = ground_truth_label;
                 truth.timestamp = film[i]->timestamp;
-                truth.pose.mean = toCPose3D(roundTrip(static_cast<int>(i), turn_rad));
+                truth.pose.mean = toCPose3D(roundTrip(first + static_cast<int>(i), turn_rad));
                 writer.write(truth);
                 writer.write(*film[i]);
             }
         });
     }
+    /** Maps the room, then goes on with a film that shows some of it and more. */
+    JobReport runAgain(MapUse use) {
+        runSlamJob(job_);
+        const auto film = filmRoundTrip(later_first + later_frames, turn_rad);
+        job_.rawlog = folder_ / "b.rawlog";
+        write({film.begin() + later_first, film.end()}, later_first);
+        job_.map_folder = job_.out_folder;
+        job_.out_folder = folder_ / "out2";
+        job_.map_use = use;
+        return runSlamJob(job_);
+    }
+    /** Errors of the later film's poses, seen in the world of the first run. */
+    double largestErrorInTheFirstWorld() const {
+        const auto first = readTumTrajectory(folder_ / "out/trajectory.txt").front().T_world_cam;
+        const SE3 T_base_cam = T_optical_from_mrpt.inverse();
+        const SE3 T_world_room = first * (roundTrip(0, turn_rad) * T_base_cam).inverse();
+        double largest = 0;
+        int i = later_first;
+        for (const auto& [stamp, T] : readTumTrajectory(folder_ / "out2/trajectory.txt")) {
+            const SE3 truth = T_world_room * roundTrip(i++, turn_rad) * T_base_cam;
+            largest = std::max(largest, (T.t - truth.t).norm());
+        }
+        return largest;
+    }
+    /** Where the map begins in map.sparse, behind header and hash. */
+    static constexpr std::size_t map_content = 44;
+    static constexpr int later_first = 15, later_frames = 30;
     std::string output(const std::string& name) const {
         return readText((fs::path(job_.out_folder) / name).string());
     }
@@ -156,6 +187,48 @@ TEST_F(JobOnARawlog, nothingToSeeIsAnErrorThatSaysSo) {
         EXPECT_NE(std::string(e.what()).find("could start a map"), std::string::npos) << e.what();
     }
     EXPECT_EQ(linesOf(output("frames.csv")), 4u);
+}
+
+TEST_F(JobOnARawlog, laterRunIsLocalisedInTheMap) {
+    const JobReport report = runAgain(MapUse::Localise);
+    EXPECT_GE(report.tracked + report.recovered, 20u);
+    EXPECT_EQ(report.recovered, 1u);
+    EXPECT_LT(largestErrorInTheFirstWorld(), 0.02);
+    EXPECT_FALSE(fs::exists(job_.out_folder + "/keyframes.txt"));
+    EXPECT_FALSE(fs::exists(job_.out_folder + "/map.sparse"));
+    const auto summary = nlohmann::json::parse(output("summary.json"));
+    EXPECT_EQ(summary["map"]["use"], "localise");
+}
+
+TEST_F(JobOnARawlog, laterRunExtendsTheMap) {
+    job_.options.run.dense_maps = true;
+    const JobReport report = runAgain(MapUse::Extend);
+    EXPECT_EQ(report.lost, 0u);
+    EXPECT_LT(largestErrorInTheFirstWorld(), 0.02);
+    ASSERT_EQ(report.earlier.size(), 1u);
+    EXPECT_EQ(report.earlier[0].rawlog, folder_ / "a.rawlog");
+    EXPECT_GT(report.keyframes, report.earlier[0].keyframes);
+    EXPECT_EQ(linesOf(output("keyframes.txt")), 1 + report.keyframes);
+    EXPECT_TRUE(fs::exists(job_.out_folder + "/points.ply"));
+    const SparseMap map = readSparseMap(job_.out_folder + "/map.sparse");
+    ASSERT_EQ(map.sessions.size(), 2u);
+    EXPECT_EQ(map.sessions[1].rawlog, job_.rawlog);
+    mrpt::graphs::CNetworkOfPoses3DInf graph;
+    graph.loadFromTextFile(job_.out_folder + "/graph.graph");
+    EXPECT_EQ(graph.nodes.size(), report.keyframes);
+}
+
+TEST_F(JobOnARawlog, extendingDoesNotDependOnThreads) {
+    job_.options.run.threads = 1;
+    runAgain(MapUse::Extend);
+    const std::string alone = output("trajectory.txt"), map = output("map.sparse");
+    for (const int threads : {2, 4}) {
+        job_.options.run.threads = threads;
+        runSlamJob(job_);
+        EXPECT_EQ(output("trajectory.txt"), alone);
+        // The hash of the settings differs, as they name the threads.
+        EXPECT_TRUE(output("map.sparse").substr(map_content) == map.substr(map_content));
+    }
 }
 
 TEST_F(JobOnARawlog, denseMapsAreMade) {

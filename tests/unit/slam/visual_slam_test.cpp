@@ -110,6 +110,82 @@ TEST(VisualSlam, comesBackAfterTheCameraWasCovered) {
     EXPECT_LT(run.largestError(), 0.01);
 }
 
+/** A map of part of the circle, and the world it was made in. */
+struct MappedWorld {
+    SyntheticWorld world{24000};
+    Camera camera;
+    MapSnapshot map;
+
+    MappedWorld() {
+        VisualSlam slam(SlamOptions{}, camera);
+        for (int i = 0; i < 60; ++i) slam.track(world.view(onCircle(0.02 * i), i + 1, camera));
+        slam.finish();
+        map = slam.snapshot();
+    }
+};
+
+TEST(VisualSlam, localisesInAMapThatStaysAsItIs) {
+    MappedWorld mapped;
+    VisualSlam slam(SlamOptions{}, mapped.camera, mapped.map, MapUse::Localise);
+    for (int i = 0; i < 40; ++i) {
+        const SE3 truth = onCircle(0.9 - 0.02 * i);
+        const TrackedFrame frame = slam.track(mapped.world.view(truth, i + 1, mapped.camera));
+        EXPECT_EQ(frame.origin, i == 0 ? FrameOrigin::Recovered : FrameOrigin::Tracked) << i;
+        EXPECT_FALSE(frame.keyframe);
+        EXPECT_LT((frame.T_world_cam.t - (onCircle(0).inverse() * truth).t).norm(), 0.01) << i;
+    }
+    slam.finish();
+    ByteWriter before, after;
+    encode(mapped.map, before);
+    MapSnapshot left = slam.snapshot();
+    for (std::size_t i = 0; i < left.landmarks.size(); ++i) {  // counters of tracking apart
+        left.landmarks[i].times_expected = mapped.map.landmarks[i].times_expected;
+        left.landmarks[i].times_found = mapped.map.landmarks[i].times_found;
+    }
+    encode(left, after);
+    EXPECT_TRUE(before.bytes() == after.bytes());
+}
+
+TEST(VisualSlam, extendsAMapBeyondWhatItShowed) {
+    MappedWorld mapped;
+    VisualSlam slam(SlamOptions{}, mapped.camera, mapped.map, MapUse::Extend);
+    for (int i = 0; i < 60; ++i) {
+        const SE3 truth = onCircle(0.8 + 0.02 * i);
+        const auto frame = slam.track(mapped.world.view(truth, i + 1, mapped.camera));
+        if (frame.keyframe) slam.findLoops(*frame.keyframe);
+    }
+    slam.finish();
+    const auto frames = slam.frames();
+    for (int i = 0; i < 60; ++i) {
+        const SE3 truth = onCircle(0).inverse() * onCircle(0.8 + 0.02 * i);
+        EXPECT_NE(frames[i].origin, FrameOrigin::Lost) << i;
+        EXPECT_LT((frames[i].T_world_cam.t - truth.t).norm(), 0.01) << i;
+    }
+    EXPECT_GT(slam.keyframes().size(), mapped.map.keyframes.size() + 3);
+    EXPECT_GT(slam.snapshot().landmarks.size(), mapped.map.landmarks.size());
+}
+
+TEST(VisualSlam, elsewhereItIsLostAndSaysSo) {
+    MappedWorld mapped;
+    VisualSlam slam(SlamOptions{}, mapped.camera, mapped.map, MapUse::Localise);
+    for (int i = 0; i < 5; ++i) {
+        const auto frame =
+            slam.track(mapped.world.view(onCircle(4 + 0.02 * i), i + 1, mapped.camera));
+        EXPECT_EQ(frame.origin, FrameOrigin::Lost);
+    }
+}
+
+TEST(VisualSlam, refusesMapsThatDoNotFit) {
+    const MappedWorld mapped;
+    SlamOptions other;
+    other.features.levels = 5;
+    EXPECT_THROW(VisualSlam(other, mapped.camera, mapped.map, MapUse::Localise), Error);
+    Camera zoomed = mapped.camera;
+    zoomed.fx *= 1.1;
+    EXPECT_THROW(VisualSlam(SlamOptions{}, zoomed, mapped.map, MapUse::Extend), Error);
+    EXPECT_NO_THROW(VisualSlam(SlamOptions{}, zoomed, mapped.map, MapUse::Localise));
+}
+
 TEST(VisualSlam, givesTheSameBitsTwice) {
     const SlamRun a = runOn(circle(0.3, 60)), b = runOn(circle(0.3, 60));
     ASSERT_EQ(a.frames.size(), b.frames.size());

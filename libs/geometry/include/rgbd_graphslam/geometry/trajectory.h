@@ -21,6 +21,9 @@ using Trajectory = std::vector<StampedPose>;
  *  \throws Error naming file and line for anything else, or when no pose is left */
 Trajectory readTumTrajectory(const std::string& path);
 
+/** The same poses in the order of their lines. */
+Trajectory readTumPoses(const std::string& path);
+
 /** The text of readTumTrajectory's format: stamps to the microsecond, metres and quaternions to
  *  nine decimals. */
 std::string toTumText(const Trajectory& trajectory);

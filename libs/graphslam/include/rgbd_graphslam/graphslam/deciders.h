@@ -24,6 +24,8 @@ class COrbKeyframeNRD : public mrpt::graphslam::deciders::CNodeRegistrationDecid
                      mrpt::obs::CObservation::Ptr observation) override;
     /** Reads the sections of SlamOptions from an ini file that may hold others too. */
     void loadParams(const std::string& ini) override;
+    /** The graph has nodes already, up to `last`. */
+    void continueAfter(mrpt::graphs::TNodeID last) { m_prev_registered_nodeID = last; }
     /** Of the last frame. */
     global_pose_t getCurrentRobotPosEstimation() const override;
 };

@@ -22,6 +22,11 @@ class GraphSlamSession {
     /** \param first_frame gives the camera's calibration and its pose on the robot */
     GraphSlamSession(const SlamOptions& options,
                      const mrpt::obs::CObservation3DRangeScan& first_frame);
+    /** Starts from a map, lost in it.
+     *  \throws Error when it does not fit the options or the camera */
+    GraphSlamSession(const SlamOptions& options,
+                     const mrpt::obs::CObservation3DRangeScan& first_frame, MapSnapshot map,
+                     MapUse use);
     ~GraphSlamSession();
 
     /** Features of a frame. Thread-safe, so that it can run ahead of step(). */

@@ -43,6 +43,17 @@ struct KeyframeGraph : mrpt::graphs::CNetworkOfPoses3DInf {
 /** Starts the SLAM of a graph. \param frame gives calibration and pose on the robot */
 void startSlam(SharedSlam& shared, const mrpt::obs::CObservation3DRangeScan& frame);
 
+/** A map that a run starts from. */
+struct StartMap {
+    MapSnapshot map;
+    MapUse use = MapUse::Localise;
+};
+
+/** Starts in a map. A map to be extended fills the graph with its keyframes, odometry and loops.
+ *  \throws Error when the map does not fit the options or the camera */
+void startSlam(KeyframeGraph& graph, const mrpt::obs::CObservation3DRangeScan& frame,
+               StartMap start);
+
 /** Robot pose in the graph's world. \param T_world_cam in the world of VisualSlam */
 mrpt::poses::CPose3D robotPose(const SE3& T_world_cam, const SE3& T_base_cam);
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rgbd_graphslam/graphslam/job_options.h"
+#include "rgbd_graphslam/mapping/map_builder.h"
 #include "rgbd_graphslam/slam/visual_slam.h"
 
 namespace rgbd_graphslam {
@@ -12,6 +13,11 @@ namespace rgbd_graphslam {
 struct SlamJob {
     std::string rawlog, out_folder;
     JobOptions options;
+    /** Output folder of an earlier run whose map this one starts from; empty = a map of its own. */
+    std::string map_folder;
+    MapUse map_use = MapUse::Localise;
+
+    bool localises() const { return !map_folder.empty() && map_use == MapUse::Localise; }
 };
 
 /** What came of a job. */
@@ -21,6 +27,8 @@ struct JobReport {
     std::size_t out_of_order = 0;
     std::size_t keyframes = 0, culled_keyframes = 0, landmarks = 0;
     std::vector<PoseEdge> loop_edges, covisibility_edges;
+    /** Of a map that was extended. */
+    std::vector<EarlierSession> earlier;
     double path_m = 0;
     /** Against the rawlog's ground truth, where it has one. */
     std::optional<double> ate_rmse_m;
@@ -50,10 +58,14 @@ struct JobReport {
  *  poses are of the camera's optical frame (in the graph: of the robot) in a world with z up and
  *  the floor at 0. The trajectory is byte-identical for any number of threads.
  *
+ *  From an earlier run's map: all poses are in that run's world. Localising writes the trajectory
+ *  only; extending writes everything, of both runs, but trajectory.txt and frames.csv have the
+ *  frames of this rawlog.
+ *
  *  A rawlog that is cut off or damaged, and SIGINT or SIGTERM, end the tracking; what was mapped by
  *  then is written and the report says so.
- *  \throws Error when the rawlog has no RGB-D frame, nothing could be mapped, or the folder cannot
- *          be written */
+ *  \throws Error when the rawlog has no RGB-D frame, nothing could be mapped or located, the
+ * earlier map cannot be read or does not fit, or the folder cannot be written */
 JobReport runSlamJob(const SlamJob& job);
 
 /** A few lines for people. */

@@ -14,14 +14,22 @@ struct MapLoopEdge {
     int inliers = 0;
 };
 
+/** A rawlog of an earlier session and how many keyframes are its. */
+struct EarlierSession {
+    std::string rawlog;
+    std::size_t keyframes = 0;
+};
+
 /** What maps are made of. Poses are of the camera's optical frame. */
 struct MapInputs {
     std::string rawlog;     // where the images are
-    Trajectory keyframes;   // the maps are made of these
+    Trajectory keyframes;   // the maps are made of these; in order of time within a session
     Trajectory trajectory;  // every frame; for the pictures, and to place accelerometer readings
     std::vector<MapLoopEdge> loops;
     /** Keyframes as they were without loops; may be empty. */
     Trajectory keyframes_before_loops;
+    /** Where the first keyframes come from; the rest is of `rawlog`. */
+    std::vector<EarlierSession> earlier;
 };
 
 /** T_up_world: z up, floor at z = 0, first camera above the origin and looking along +x. Up is
@@ -42,7 +50,8 @@ struct MapSummary {
 };
 
 /** Writes points.ply, points.pcd, points.metricmap, octree.bt, octree.ot, grid.gridmap.gz,
- * grid.png, grid.yaml, map.simplemap, scene.3Dscene and map.png, in one pass over the rawlog.
+ * grid.png, grid.yaml, map.simplemap, scene.3Dscene and map.png, in one pass over each rawlog. A
+ * rawlog of an earlier session that is gone is warned of and left out.
  *  \param inputs upright: z up, floor at z = 0
  *  \throws Error when something cannot be read or written, or would not fit in memory */
 MapSummary writeMaps(const MapInputs& inputs, const MapOptions& options,

@@ -14,6 +14,11 @@ class LoopCloser {
     /** All arguments must outlive the closer. */
     LoopCloser(const SlamOptions& options, const Camera& camera, SlamMap& map);
 
+    /** Takes up the keyframes of a map that was kept, and its loops. */
+    void restore(std::vector<PoseEdge> loops);
+
+    const std::vector<PoseEdge>& loops() const { return loops_; }
+
     /** Compares a keyframe with all earlier ones and remembers it. Verified loops join poseGraph().
      *  \return edges from the earlier keyframe to this one */
     std::vector<PoseEdge> findLoops(int keyframe);
@@ -22,7 +27,7 @@ class LoopCloser {
     std::optional<LocatedFrame> relocalise(const Frame& frame, Tracker& tracker) const;
 
     /** Relative pose of two successive keyframes, with the information of the landmarks that both
-     *  see. */
+     *  see; next to none where the camera lost its way between them. */
     PoseEdge odometryEdge(int keyframe) const;
 
     PoseGraph poseGraph() const;
@@ -59,6 +64,7 @@ class LoopCloser {
     void forget(const PoseEdge& edge);
     void fuse(const Loop& loop, LocalMapper& mapper);
     Matrix6d informationOf(int keyframe, const std::vector<int>& landmarks) const;
+    std::vector<int> sharedLandmarks(int keyframe, int other) const;
 
     const SlamOptions& options_;
     const Camera& camera_;

@@ -41,6 +41,10 @@ struct Keyframe {
     bool culled = false;
     int parent = -1;
     SE3 T_cam_parent;
+    /** Keyframes of one part of the map have known poses to each other. */
+    int part = 0;
+    /** Whether the motion from the keyframe before, id - 1, was measured. */
+    bool follows = true;
 };
 
 /** Number of landmarks that two keyframes share. */
@@ -55,8 +59,11 @@ class SlamMap {
   public:
     /** \param scale_factor between pyramid levels; \param levels of the pyramid */
     SlamMap(double scale_factor, int levels);
+    /** Takes up a map that was kept. \param landmarks living ones, consistent with the keyframes */
+    void restore(std::vector<Keyframe> keyframes, std::vector<Landmark> landmarks);
 
-    int addKeyframe(Frame frame, const SE3& T_cam_world);
+    /** \param part of the map; \param follows the keyframe before by a measured motion */
+    int addKeyframe(Frame frame, const SE3& T_cam_world, int part = 0, bool follows = true);
     int addLandmark(const Eigen::Vector3d& position, int keyframe, int keypoint);
     /** The keypoint must be free and the landmark not yet seen by the keyframe. */
     void addObservation(int landmark, int keyframe, int keypoint);

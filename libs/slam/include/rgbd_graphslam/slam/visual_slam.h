@@ -10,6 +10,7 @@
 #include "rgbd_graphslam/geometry/camera.h"
 #include "rgbd_graphslam/geometry/rgbd_image.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/slam/map_snapshot.h"
 #include "rgbd_graphslam/slam/pose_graph.h"
 #include "rgbd_graphslam/slam/slam_options.h"
 
@@ -33,6 +34,14 @@ struct TrackedFrame {
     SE3 T_reference_cam;
     /** Set when the frame became a keyframe: its id, which counts from 0 without gaps. */
     std::optional<int> keyframe;
+};
+
+/** What a run does with the map that it starts from. */
+enum class MapUse {
+    /** The map stays as it is: poses only, memory does not grow with new views. */
+    Localise,
+    /** Frames are located in it and add to it. */
+    Extend,
 };
 
 /** One keyframe as others see it. */
@@ -66,6 +75,10 @@ struct LandmarkView {
 class VisualSlam {
   public:
     VisualSlam(const SlamOptions& options, const Camera& camera);
+    /** Starts from a map, lost in it.
+     *  \throws Error when the map is of another image pyramid, or is to be extended by another
+     *          camera */
+    VisualSlam(const SlamOptions& options, const Camera& camera, MapSnapshot map, MapUse use);
     ~VisualSlam();
 
     /** Features of an image with their depth. Thread-safe: a pipeline calls it ahead of track(). */
@@ -96,6 +109,9 @@ class VisualSlam {
     std::vector<TrackedFrame> frames() const;
     std::vector<KeyframeView> keyframes() const;
     std::vector<LandmarkView> landmarks() const;
+
+    /** The map for another run; finish() first. */
+    MapSnapshot snapshot() const;
 
     struct StageTime {
         std::string stage;

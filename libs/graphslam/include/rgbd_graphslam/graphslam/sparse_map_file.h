@@ -1,0 +1,33 @@
+/** map.sparse: what a later run localises in or goes on with. */
+#pragma once
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/slam/map_snapshot.h"
+
+namespace rgbd_graphslam {
+
+/** A rawlog that keyframes of a map come from. */
+struct MapSession {
+    std::string rawlog;  // absolute path
+    int first_keyframe = 0;
+};
+
+struct SparseMap {
+    MapSnapshot snapshot;
+    /** From the map's own world to the upright one of the run's output. */
+    SE3 T_up_world;
+    /** Of the run that wrote it, see configHash. */
+    std::string config_hash;
+    /** In order of time. */
+    std::vector<MapSession> sessions;
+};
+
+/** Format: doc/file-formats.md. \throws Error when the file cannot be written */
+void writeSparseMap(const std::string& path, const SparseMap& map);
+
+/** \throws Error in one line naming the file when it is missing, not a map, of another version, cut
+ *          off or damaged */
+SparseMap readSparseMap(const std::string& path);
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,38 @@
+/** A map taken out of a run, to be kept and gone on with. */
+#pragma once
+#include <vector>
+
+#include "rgbd_graphslam/core/byte_stream.h"
+#include "rgbd_graphslam/geometry/camera.h"
+#include "rgbd_graphslam/slam/pose_graph.h"
+#include "rgbd_graphslam/slam/slam_map.h"
+
+namespace rgbd_graphslam {
+
+struct MapSnapshot {
+    /** That took the keyframes. */
+    Camera camera;
+    double scale_factor = 1;
+    int levels = 1;
+    std::vector<Keyframe> keyframes;
+    /** Living ones only. */
+    std::vector<Landmark> landmarks;
+    std::vector<PoseEdge> loops;
+};
+
+/** \param map is copied; dead landmarks are left out and the others numbered anew in their order */
+MapSnapshot takeSnapshot(const SlamMap& map, const Camera& camera, double scale_factor,
+                         std::vector<PoseEdge> loops);
+
+/** A rotation matrix by rows, then the translation. */
+void encodePose(const SE3& pose, ByteWriter& out);
+/** \throws DamagedBytes when the bytes are no rigid motion */
+SE3 decodePose(ByteReader& in);
+
+void encode(const MapSnapshot& snapshot, ByteWriter& out);
+
+/** \throws DamagedBytes when the bytes end early, a number is not finite, an index names nothing,
+ * or the two directions of the observations cannot agree */
+MapSnapshot decodeSnapshot(ByteReader& in);
+
+}  // namespace rgbd_graphslam
