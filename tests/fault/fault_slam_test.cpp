@@ -143,7 +143,9 @@ TEST_F(FaultSlam, badMapsAreRefusedBeforeAnythingIsWritten) {
     expectRefused(localise(out_), "cut off or damaged");
     folder_.write("out/map.sparse", "RGBDMAP\n\7" + whole.substr(9));
     expectRefused(localise(out_), "version 7");
-    folder_.write("out/map.sparse", whole.substr(0, 5000) + "?" + whole.substr(5001));
+    std::string flipped = whole;
+    flipped[5000] = static_cast<char>(flipped[5000] ^ 1);
+    folder_.write("out/map.sparse", flipped);
     expectRefused(localise(out_), "its check sum is wrong");
     EXPECT_FALSE(fs::exists(out2));
 }

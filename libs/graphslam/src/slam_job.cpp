@@ -302,7 +302,8 @@ void Job::write() {
     report_.peak_memory_mb = peakMemoryMb();
     report_.warnings = warnings_.warnings();
     writeTextAtomically(path("summary.json"), summaryJson(job_, report_));
-    if (!job_.localises()) writeReport();
+    const bool has_keyframes = report_.keyframes > static_cast<std::size_t>(first_keyframe_);
+    if (!job_.localises() && has_keyframes) writeReport();
 }
 
 void Job::writeLocalisation() const {

@@ -113,7 +113,7 @@ void checkLoops(const RunRecord& run, const std::string& folder) {
 }
 
 Trajectory readIfThere(const fs::path& path) {
-    return fs::exists(path) ? readTumTrajectory(path.string()) : Trajectory();
+    return fs::exists(path) ? readTumPoses(path.string()) : Trajectory();
 }
 
 }  // namespace
@@ -129,7 +129,7 @@ RunRecord readRunRecord(const std::string& run_folder, const std::string& map_fo
     readSummary(run_path / "summary.json", run);
     readFrames(run_path / "frames.csv", run);
     run.trajectory = readTumTrajectory((run_path / "trajectory.txt").string());
-    run.keyframes = readTumTrajectory((run_path / "keyframes.txt").string());
+    run.keyframes = readTumPoses((run_path / "keyframes.txt").string());
     run.keyframes_before_loops = readIfThere(run_path / "keyframes_before_loops.txt");
     run.truth = readIfThere(run_path / "truth.txt");
     run.keyframes_jpg = bytesOf(run_path / "keyframes.jpg");

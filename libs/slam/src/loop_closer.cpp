@@ -117,9 +117,9 @@ std::vector<int> LoopCloser::candidatesFor(int keyframe) const {
 
 void LoopCloser::restore(std::vector<PoseEdge> loops) {
     loops_ = std::move(loops);
-    for (const Keyframe& keyframe : map_.keyframes()) {
-        if (!keyframe.culled) index_.insert(keyframe.id, placeDescriptors(keyframe.id));
-    }
+    std::vector<std::vector<Descriptor>> descriptors;
+    for (const Keyframe& k : map_.keyframes()) descriptors.push_back(placeDescriptors(k.id));
+    index_.insertAll(descriptors);
 }
 
 /** Of places that look alike, the one that asks for least drift among those with many inliers;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 #include "popcount.h"
 
@@ -106,6 +107,19 @@ void PlaceIndex::insert(int keyframe, const std::vector<Descriptor>& descriptors
     for (const Descriptor& descriptor : descriptors) {
         for (auto& tree : trees_) tree->insert({descriptor, keyframe});
     }
+}
+
+void PlaceIndex::insertAll(const std::vector<std::vector<Descriptor>>& descriptors) {
+    keyframes_ = static_cast<int>(descriptors.size());
+    std::vector<std::future<void>> growing;
+    for (auto& tree : trees_) {
+        growing.push_back(std::async(std::launch::async, [&tree, &descriptors] {
+            for (std::size_t k = 0; k < descriptors.size(); ++k) {
+                for (const Descriptor& d : descriptors[k]) tree->insert({d, static_cast<int>(k)});
+            }
+        }));
+    }
+    for (auto& done : growing) done.get();
 }
 
 std::vector<PlaceVote> PlaceIndex::query(const std::vector<Descriptor>& descriptors) const {

@@ -25,6 +25,9 @@ class PlaceIndex {
     /** \param keyframe rising from call to call */
     void insert(int keyframe, const std::vector<Descriptor>& descriptors);
 
+    /** The same for many, one list a keyframe from 0; the trees grow side by side. */
+    void insertAll(const std::vector<std::vector<Descriptor>>& descriptors);
+
     /** Keyframes with their number of matches, best first, then by id. */
     std::vector<PlaceVote> query(const std::vector<Descriptor>& descriptors) const;
 
