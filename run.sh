@@ -11,7 +11,8 @@ packages=(
     libcli11-dev nlohmann-json3-dev libarchive-dev zlib1g-dev
     libcurl4-openssl-dev libnanoflann-dev gnuplot-nox
     libgl-dev libopengl-dev libegl1 libgl1-mesa-dri
-    libgtest-dev libgmock-dev libbenchmark-dev python3 parallel xvfb xauth
+    libgtest-dev libgmock-dev libbenchmark-dev python3 parallel
+    python3-rosbag python3-sensor-msgs python3-tf2-msgs xvfb xauth
 )
 
 usage() {

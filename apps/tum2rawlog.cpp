@@ -8,6 +8,7 @@
 #include "rgbd_graphslam/dataset/sequence_archive.h"
 #include "rgbd_graphslam/dataset/sequence_import.h"
 #include "rgbd_graphslam/dataset/sequence_layout.h"
+#include "rgbd_graphslam/dataset/unpacked_bag.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -23,7 +24,8 @@ struct Arguments {
 };
 
 void declare(CLI::App& app, Arguments& args) {
-    app.add_option("DIR", args.source, "Folder of the sequence, or its .tgz archive")->required();
+    app.add_option("DIR", args.source, "Folder of the sequence, its .tgz archive or ROS 1 .bag")
+        ->required();
     app.add_option("OUT.rawlog", args.rawlog, "Rawlog to write")->required();
     std::vector<std::string> layouts = layoutNames();
     layouts.insert(layouts.begin(), "auto");
@@ -116,6 +118,10 @@ int importFolder(const Arguments& args, const std::string& folder) {
 int run(Arguments& args) {
     if (args.compact) args.import.storage = RawlogStorage::Compact;
     if (args.small) args.import.storage = RawlogStorage::Small;
+    if (isBag(args.source)) {
+        const UnpackedBag unpacked(args.source, fs::absolute(args.rawlog).parent_path());
+        return importFolder(args, unpacked.sequenceFolder());
+    }
     if (!isSequenceArchive(args.source)) return importFolder(args, args.source);
     const std::string beside = fs::absolute(args.rawlog).parent_path();
     sayInfo("unpacking '" + args.source + "'");

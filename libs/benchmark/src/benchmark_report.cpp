@@ -133,7 +133,8 @@ std::string html(const std::vector<SequenceResult>& results,
         "body { font-family: sans-serif; margin: 2em; }\n"
         "table { border-collapse: collapse; } td, th { padding: 0.2em 0.7em; "
         "border-bottom: 1px solid #ccc; text-align: right; }\n"
-        "td:first-child, th:first-child { text-align: left; } img { max-width: 48%; }\n"
+        "td:first-child, th:first-child { text-align: left; white-space: nowrap; } img { "
+        "max-width: 48%; }\n"
         "</style></head><body>\n<h1>RGB-D benchmark</h1>\n<p>" +
         htmlEscaped(summaryOf(results, table)) + "</p>\n<table>\n" + htmlRow(columns, "th");
     for (const auto& result : results) text += htmlRow(cellsOf(result, table), "td");
