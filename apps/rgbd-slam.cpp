@@ -16,7 +16,7 @@ struct Arguments {
     std::vector<std::string> assignments;
     int threads = 0, max_frames = 0;
     bool localize = false, extend = false;
-    bool no_maps = false, profile = false, print_config = false;
+    bool no_maps = false, profile = false, view = false, print_config = false;
 };
 
 void declare(CLI::App& app, Arguments& args) {
@@ -36,6 +36,7 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_option("--threads", args.threads, "As --set RunOptions.threads=N");
     app.add_option("--max-frames", args.max_frames, "As --set RunOptions.max_frames=N");
     app.add_flag("--no-maps", args.no_maps, "As --set RunOptions.dense_maps=false");
+    app.add_flag("--view", args.view, "Watch the run in a window; as rgbd-viewer --follow OUT");
     app.add_flag("--profile", args.profile, "Print the times of all stages");
     app.add_flag("--print-config", args.print_config,
                  "Print all settings as a commented ini, then stop");
@@ -68,8 +69,12 @@ int run(const CLI::App& app, const Arguments& args) {
     if (!args.map_folder.empty() && !args.localize && !args.extend) {
         throw Error("--map alone does not say what to do with it", "add --localize or --extend");
     }
-    const SlamJob job{args.rawlog, args.out_folder, options, args.map_folder,
-                      args.extend ? MapUse::Extend : MapUse::Localise};
+    const SlamJob job{args.rawlog,
+                      args.out_folder,
+                      options,
+                      args.map_folder,
+                      args.extend ? MapUse::Extend : MapUse::Localise,
+                      args.view};
     const JobReport report = runSlamJob(job);
     if (args.profile) std::fputs((profileTable(report) + "\n").c_str(), stdout);
     std::fputs(resultTable(job, report).c_str(), stdout);

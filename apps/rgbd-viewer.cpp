@@ -19,6 +19,8 @@ struct Arguments {
 
 void declare(CLI::App& app, Arguments& args) {
     app.add_option("OUT", args.job.path, "Output folder of rgbd-slam, or a .ply")->required();
+    app.add_flag("--follow", args.job.follow,
+                 "Watch the rgbd-slam that writes to OUT, now or soon; then show its result");
     app.add_option("--screenshot", args.job.screenshot,
                    "Open the window, write it to this PNG once all is shown, and end");
     app.add_option("--benchmark", args.job.benchmark_s,

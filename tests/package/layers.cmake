@@ -2,7 +2,7 @@
 # free of recordings and windows does not. ROOT: folder that holds libs/.
 cmake_minimum_required(VERSION 3.22)
 
-set(layers core geometry dataset synth evaluation report features slam mapping navigation
+set(layers core geometry live dataset synth evaluation report features slam mapping navigation
     graphslam viewer benchmark)
 # These know nothing of rawlogs, and of MRPT no more than what `core` shows them.
 set(pure features slam)

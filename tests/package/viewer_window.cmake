@@ -1,5 +1,5 @@
 # The viewer opens its window on a display without hardware (Xvfb), shows a run, and what it shows is
-# not blank; without a display it says so in one line, and --snapshot works all the same.
+# not blank; it follows a run and may be killed without harm; without a display it says so in one line, and --snapshot works all the same.
 # APP: rgbd-viewer. SLAM: rgbd-slam. RAWLOG, INI: a short run. SCRATCH: a folder for it all.
 cmake_minimum_required(VERSION 3.22)
 
@@ -34,6 +34,25 @@ if(NOT code EQUAL 0)
     message(FATAL_ERROR "the viewer ended with ${code} and said:\n${text}")
 endif()
 expect_picture(${SCRATCH}/window.png)
+
+# A run that is followed: the result is shown when it ends, and it is the same as without a viewer;
+# so it is when the viewer is killed.
+file(WRITE ${SCRATCH}/follow.sh "
+'${APP}' --follow out-followed --screenshot followed.png & viewer=$!
+'${SLAM}' -q --max-frames 40 '${INI}' '${RAWLOG}' -o out-followed || exit 1
+wait $viewer || exit 2
+'${APP}' --follow out-killed & viewer=$!
+(while ! [ -S out-killed/live.socket ]; do sleep 0.02; done; sleep 0.1; kill -9 $viewer) & killer=$!
+'${SLAM}' -q --max-frames 40 '${INI}' '${RAWLOG}' -o out-killed || exit 3
+wait $killer || exit 4
+cmp out/trajectory.txt out-followed/trajectory.txt && cmp out/trajectory.txt out-killed/trajectory.txt")
+execute_process(COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24" sh ${SCRATCH}/follow.sh
+    WORKING_DIRECTORY ${SCRATCH}
+    RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE text TIMEOUT 200)
+if(NOT code EQUAL 0)
+    message(FATAL_ERROR "following a run ended with ${code} and said:\n${text}")
+endif()
+expect_picture(${SCRATCH}/followed.png)
 
 unset(ENV{DISPLAY})
 unset(ENV{WAYLAND_DISPLAY})

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "interruption.h"
+#include "live_feed.h"
 #include "output_texts.h"
 #include "process_usage.h"
 #include "rgbd_graphslam/core/atomic_file.h"
@@ -16,6 +17,7 @@
 #include "rgbd_graphslam/graphslam/frame_stream.h"
 #include "rgbd_graphslam/graphslam/graph_slam_session.h"
 #include "rgbd_graphslam/graphslam/sparse_map_file.h"
+#include "rgbd_graphslam/live/viewer_launch.h"
 #include "rgbd_graphslam/mapping/map_builder.h"
 #include "rgbd_graphslam/report/keyframe_sheet.h"
 #include "rgbd_graphslam/report/run_report.h"
@@ -78,7 +80,8 @@ class Job {
         : job_(job),
           start_(std::move(start)),
           stream_(job.rawlog, job.options.run),
-          session_(makeSession(job, stream_, start_)) {
+          session_(makeSession(job, stream_, start_)),
+          live_feed_(job.out_folder) {
         if (!start_ || job.localises()) return;
         for (const KeyframeView& keyframe : session_.slam().keyframes()) noteKeyframe(keyframe.id);
         first_keyframe_ = static_cast<int>(T_previous_keyframe_.size());
@@ -89,6 +92,7 @@ class Job {
     Job& operator=(const Job&) = delete;
 
     JobReport run() {
+        if (job_.view) launchViewer(job_.out_folder);
         track();
         session_.finish();
         describe();
@@ -122,11 +126,12 @@ class Job {
     std::optional<SparseMap> start_;  // its snapshot is the session's
     FrameStream stream_;
     GraphSlamSession session_;
+    LiveFeed live_feed_;
     Interruption interruption_;
     WarningRecord warnings_;
     JobReport report_;
     std::optional<double> first_stamp_s_, last_stamp_s_;
-    int first_keyframe_ = 0;  // of this rawlog
+    int first_keyframe_ = 0;                // of this rawlog
     std::vector<SE3> T_previous_keyframe_;  // one a keyframe, the identity for the first
     KeyframeSheet keyframe_sheet_;
     Trajectory truth_;  // beside the estimate, in its world
@@ -174,10 +179,12 @@ void Job::trackOne(const StreamedFrame& frame) {
     last_stamp_s_ = stamp_s;
     if (!first_stamp_s_) first_stamp_s_ = stamp_s;
     ++report_.frames;
-    const auto keyframe = session_.step(frame.observation, frame.prepared).keyframe;
-    if (!keyframe) return;
-    noteKeyframe(*keyframe);
-    keyframe_sheet_.add(*keyframe, *last_stamp_s_ - *first_stamp_s_,
+    const Stopwatch watch;
+    const TrackedFrame tracked = session_.step(frame.observation, frame.prepared);
+    live_feed_.note(frame, tracked, 1e3 * watch.seconds(), session_);
+    if (!tracked.keyframe) return;
+    noteKeyframe(*tracked.keyframe);
+    keyframe_sheet_.add(*tracked.keyframe, *last_stamp_s_ - *first_stamp_s_,
                         toRgbdImage(frame.observation).color);
 }
 

@@ -46,8 +46,37 @@ SE3 Tracker::lastPose() const {
 
 void Tracker::setLast(Frame frame, LocatedFrame located, int reference_keyframe, bool keep_motion) {
     motion_ = keep_motion && last_ ? located.T_cam_world * lastPose().inverse() : SE3();
+    landmarks_before_ = last_ ? std::move(last_->landmarks) : std::vector<int>();
     last_ = Last{std::move(frame), std::move(located.landmarks), reference_keyframe,
                  located.T_cam_world * map_.T_cam_world(reference_keyframe).inverse()};
+}
+
+std::vector<FeatureView> Tracker::features() const {
+    std::vector<FeatureView> features;
+    if (!last_) return features;
+    for (std::size_t i = 0; i < last_->landmarks.size(); ++i) {
+        const Keypoint& keypoint = last_->frame.keypoints[i];
+        const int landmark = last_->landmarks[i];
+        const bool is_new = landmark == no_landmark;
+        features.push_back({{keypoint.u, keypoint.v},
+                            is_new ? FeatureView::State::New : FeatureView::State::Tracked});
+    }
+    addMissed(features);
+    return features;
+}
+
+void Tracker::addMissed(std::vector<FeatureView>& features) const {
+    std::vector<int> found = last_->landmarks;
+    std::sort(found.begin(), found.end());
+    const SE3 T_cam_world = lastPose();
+    for (const int landmark : landmarks_before_) {
+        if (landmark == no_landmark || !map_.landmark(landmark).alive) continue;
+        if (std::binary_search(found.begin(), found.end(), landmark)) continue;
+        const Eigen::Vector3d p = T_cam_world * map_.landmark(landmark).position;
+        if (p.z() < nearest_depth_m) continue;
+        const Eigen::Vector2d pixel = camera_.project(p);
+        if (camera_.contains(pixel)) features.push_back({pixel, FeatureView::State::Lost});
+    }
 }
 
 std::optional<LocatedFrame> Tracker::track(const Frame& frame) {

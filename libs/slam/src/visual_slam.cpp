@@ -292,6 +292,14 @@ MapSnapshot VisualSlam::snapshot() const {
                         impl_->closer.loops());
 }
 
+const std::vector<PoseEdge>& VisualSlam::loops() const {
+    return impl_->closer.loops();
+}
+
+std::vector<FeatureView> VisualSlam::features() const {
+    return impl_->tracker.features();
+}
+
 std::vector<VisualSlam::StageTime> VisualSlam::stageTimes() const {
     return impl_->times.all();
 }

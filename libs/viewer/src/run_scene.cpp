@@ -14,12 +14,14 @@ constexpr Rgba floor_color = {198, 204, 213, 255}, trajectory_color = {235, 95, 
                loop_color = {215, 25, 60, 255}, before_color = {130, 130, 140, 255},
                now_color = {235, 95, 0, 255}, selection_color = {255, 190, 0, 255},
                measure_color = {200, 0, 200, 255};
-constexpr double lowest_ceiling_m = 2, ceiling_margin_m = 0.1;
+constexpr double ceiling_margin_m = 0.1;
+/** Above the floor, and above the first camera while the floor is not known. */
+constexpr double lowest_ceiling_m = 2, lowest_live_ceiling_m = 0.6;
 
 double highestOf(const Trajectory& poses) {
-    double highest_m = lowest_ceiling_m - ceiling_margin_m;
+    double highest_m = -1e9;
     for (const StampedPose& pose : poses) highest_m = std::max(highest_m, pose.T_world_cam.t.z());
-    return highest_m + ceiling_margin_m;
+    return highest_m;
 }
 
 /** Two vertices for every line up to a stamp. */
@@ -35,23 +37,43 @@ std::size_t verticesUntil(const List& list, std::optional<double> stamp_s) {
 
 void RunScene::show(RunData run) {
     run_ = std::move(run);
+    lowest_ceiling_m_ = lowest_ceiling_m;
     box_ = boxOf(run_);
     truth_.reset();
     pictures_.assign(run_.keyframes.size(), {});
     renderer_.clearKeyframePoints();
     renderer_.setLines(Part::Floor, box_.isEmpty() ? Vertices{} : floorLines(box_, floor_color));
-    renderer_.setLines(Part::Path, pathLines(run_.trajectory, trajectory_color));
-    renderer_.setLines(Part::Loops, edgeLines(run_.keyframes, run_.loops, loop_color));
-    renderer_.setLines(Part::Covisibility,
-                       edgeLines(run_.keyframes, run_.covisibility, covisibility_color));
-    renderer_.setLines(Part::BeforeLoops, pathLines(run_.keyframes_before_loops, before_color));
+    showPoses();
     renderer_.setLines(Part::TruePath, {});
     renderer_.setLines(Part::Errors, {});
     renderer_.setTriangles(Part::Grid, run_.grid ? gridTriangles(*run_.grid) : Vertices{});
     renderer_.setOctree(outerFaces(run_.octree));
     renderer_.setPoints(chunked(pointVertices(run_.points)));
     run_.points = {};  // the renderer has them
+}
+
+void RunScene::showPoses() {
+    renderer_.setLines(Part::Path, pathLines(run_.trajectory, trajectory_color));
+    renderer_.setLines(Part::Loops, edgeLines(run_.keyframes, run_.loops, loop_color));
+    renderer_.setLines(Part::Covisibility,
+                       edgeLines(run_.keyframes, run_.covisibility, covisibility_color));
+    renderer_.setLines(Part::BeforeLoops, pathLines(run_.keyframes_before_loops, before_color));
     setCamera(camera_);
+}
+
+void RunScene::update(const LiveRun& live) {
+    run_ = live.run();
+    lowest_ceiling_m_ = lowest_live_ceiling_m;
+    if (live.lastFrame()) camera_ = live.lastFrame()->camera;
+    for (const StampedPose& pose : run_.trajectory) box_.extend(pose.T_world_cam.t);
+    showPoses();
+}
+
+void RunScene::showClouds(const std::vector<std::pair<std::size_t, Vertices>>& clouds) {
+    for (const auto& [keyframe, points] : clouds) {
+        renderer_.setKeyframePoints(keyframe, points);
+        for (const Vertex& point : points) box_.extend(point.position.cast<double>());
+    }
 }
 
 void RunScene::setCamera(const Camera& camera) {
@@ -142,7 +164,10 @@ SceneView RunScene::viewAt(std::optional<double> stamp_s, const ViewerSettings& 
         view.height_range_m = {static_cast<float>(box_.min().z()),
                                static_cast<float>(box_.max().z())};
     }
-    if (settings.cut_ceiling) view.highest_m = static_cast<float>(highestOf(run_.trajectory));
+    if (settings.cut_ceiling) {
+        view.highest_m = static_cast<float>(
+            std::max(lowest_ceiling_m_, highestOf(run_.trajectory) + ceiling_margin_m));
+    }
     view.least_point_px = static_cast<float>(settings.point_size_px);
     return view;
 }

@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "rgbd_graphslam/viewer/live_run.h"
 #include "rgbd_graphslam/viewer/recording_loader.h"
 #include "rgbd_graphslam/viewer/replay.h"
 #include "rgbd_graphslam/viewer/run_data.h"
@@ -18,6 +19,9 @@ class RunScene {
 
     /** Takes the place of the run before. */
     void show(RunData run);
+    /** Poses and loops of a run that goes on. */
+    void update(const LiveRun& live);
+    void showClouds(const std::vector<std::pair<std::size_t, Vertices>>& clouds);
     void add(RecordingLoader::News news);
     /** \param stamp_s where the camera is drawn; nothing draws none */
     void markNow(std::optional<double> stamp_s);
@@ -35,6 +39,7 @@ class RunScene {
     Eigen::AlignedBox3d box() const { return box_; }
 
   private:
+    void showPoses();
     double frustumDepth() const;
     void setCamera(const Camera& camera);
 
@@ -45,6 +50,7 @@ class RunScene {
     std::optional<TrueTrajectory> truth_;
     std::vector<KeyframePicture> pictures_;  // one a keyframe, empty while not read
     std::optional<double> now_s_;
+    double lowest_ceiling_m_ = 2;
 };
 
 }  // namespace rgbd_graphslam

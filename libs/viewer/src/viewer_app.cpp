@@ -1,5 +1,8 @@
 #include "rgbd_graphslam/viewer/viewer_app.h"
 
+#include <sys/resource.h>
+
+#include <cstdlib>
 #include <filesystem>
 
 #include "rgbd_graphslam/core/console.h"
@@ -38,6 +41,13 @@ nanogui::ref<ViewerWindow> makeWindow(const ViewerSettings& settings, const std:
     }
 }
 
+/** Beside a running SLAM the viewer takes only time that is left over. */
+void stepBack() {
+    constexpr int lowest_priority = 19;
+    ::setpriority(PRIO_PROCESS, 0, lowest_priority);
+    ::setenv("LP_NUM_THREADS", "1", 0);  // of Mesa's software renderer
+}
+
 void reportSpeed(ViewerWindow& window, double seconds) {
     window.spin(0.3 * seconds);  // until the number of points has adapted
     const double rate = window.spin(seconds);
@@ -58,12 +68,19 @@ void runUntilClosed(ViewerWindow& window, const ViewerJob& job) {
 }  // namespace
 
 void runViewer(const ViewerJob& job) {
+    const auto start = std::filesystem::file_time_type::clock::now();
+    if (job.follow) stepBack();
     const Glfw glfw;
-    RunData run = loadRun(job.path);
+    RunData run;
+    if (!job.follow) run = loadRun(job.path);
     const std::string path = settingsPath();
     nanogui::ref<ViewerWindow> window = makeWindow(loadSettings(path), "rgbd-viewer: " + job.path);
     window->setVisible(true);
-    window->open(std::move(run));
+    if (job.follow) {
+        window->follow(job.path, start);
+    } else {
+        window->open(std::move(run));
+    }
     runUntilClosed(*window, job);
     if (job.screenshot.empty() && job.benchmark_s == 0) saveSettings(path, window->settings());
 }

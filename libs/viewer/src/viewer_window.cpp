@@ -20,7 +20,7 @@ namespace {
 
 constexpr int margin_px = 8, click_slack_px = 4, pick_radius_px = 5;
 constexpr double double_click_s = 0.4, zoom_a_notch = 0.85;
-constexpr double busy_wait_s = 0.001, reading_wait_s = 0.1, idle_wait_s = 1;
+constexpr double busy_wait_s = 0.001, reading_wait_s = 0.05, idle_wait_s = 1;
 
 template <class... Values>
 std::string formatted(const char* format, Values... values) {
@@ -71,8 +71,8 @@ void ViewerWindow::makeShortcuts() {
          }},
         {GLFW_KEY_C, "C", "follow the camera",
          [this] {
-             follow_ = !follow_;
-             say(follow_ ? "following the camera" : "no longer following the camera");
+             follow_camera_ = !follow_camera_;
+             say(follow_camera_ ? "following the camera" : "no longer following the camera");
              sceneChanged();
          }},
         {GLFW_KEY_P, "P", "points", flips(&ViewerSettings::points)},
@@ -127,7 +127,7 @@ void ViewerWindow::makePanels() {
     };
     time_panel_->on_play = [this](bool play) {
         const auto [first, last] = timeSpan(scene_->run());
-        playing_ = play && last > first;
+        playing_ = play && last > first && !live_;
         if (playing_ && !now_s_) moveTo(first);
         last_advance_ = Clock::now();
         showTime();
@@ -184,6 +184,9 @@ void ViewerWindow::open(RunData run) {
         loader_ = std::make_unique<RecordingLoader>(run.rawlog, run.keyframes, run.trajectory);
     }
     all_read_ = !has_recording;
+    follow_camera_ = false;
+    time_panel_->setReplayVisible(true);
+    placePanels();
     scene_->show(std::move(run));
     now_s_.reset();
     select(std::nullopt);
@@ -193,10 +196,11 @@ void ViewerWindow::open(RunData run) {
 }
 
 bool ViewerWindow::settled() const {
-    return all_read_ && renderer_->complete() && !scene_changed_ && !panels_changed_;
+    return !live_ && all_read_ && renderer_->complete() && !scene_changed_ && !panels_changed_;
 }
 
 double ViewerWindow::update() {
+    takeLive();
     takeRecording();
     advanceReplay();
     if (scene_changed_) {
@@ -209,7 +213,7 @@ double ViewerWindow::update() {
     }
     if (panels_changed_ || mLastInteraction != last_drawn_interaction_) drawAll();
     if (playing_ || !renderer_->complete()) return busy_wait_s;
-    return all_read_ ? idle_wait_s : reading_wait_s;
+    return all_read_ && !live_ ? idle_wait_s : reading_wait_s;
 }
 
 /** Draws to the back buffer. */
@@ -227,7 +231,7 @@ void ViewerWindow::drawAll() {
 }
 
 SceneView ViewerWindow::sceneView() {
-    if (follow_) {
+    if (follow_camera_) {
         const auto [first, last] = timeSpan(scene_->run());
         if (const auto pose = poseAt(scene_->run().trajectory, now_s_.value_or(last)))
             camera_.target = pose->t;
@@ -267,6 +271,7 @@ void ViewerWindow::advanceReplay() {
 }
 
 void ViewerWindow::moveTo(std::optional<double> stamp_s) {
+    if (live_) return;  // the present moment is shown
     now_s_ = stamp_s;
     if (!stamp_s) playing_ = false;
     if (stamp_s) select(std::nullopt);
@@ -343,7 +348,7 @@ Eigen::Vector2d ViewerWindow::freeShare() const {
 
 void ViewerWindow::fit() {
     if (!scene_->box().isEmpty()) camera_.frame(scene_->box(), mFBSize, freeShare());
-    follow_ = false;
+    follow_camera_ = false;
     sceneChanged();
 }
 
@@ -367,6 +372,7 @@ std::optional<Eigen::Vector3d> ViewerWindow::surfaceUnder(const Eigen::Vector2d&
 
 void ViewerWindow::click(const Eigen::Vector2d& pixel) {
     if (measuring_) return measureAt(pixel);
+    if (live_) return;
     const RunData& run = scene_->run();
     const std::size_t shown = now_s_ ? replayAt(run, *now_s_).keyframes : run.keyframes.size();
     select(keyframeAt(run.keyframes, settings_.keyframes ? shown : 0, pixel, camera_, mFBSize));
@@ -464,7 +470,7 @@ bool ViewerWindow::mouseMotionEvent(const Eigen::Vector2i& p, const Eigen::Vecto
     if ((p - drag_start_).norm() <= click_slack_px && !moves) return true;
     if (moves) {
         camera_.pan(motion, mFBSize.y());
-        follow_ = false;
+        follow_camera_ = false;
     } else {
         camera_.orbit(motion);
     }

@@ -2,12 +2,15 @@
 #pragma once
 #include <nanogui/nanogui.h>
 
+#include <chrono>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "panels.h"
+#include "rgbd_graphslam/viewer/live_run.h"
 #include "rgbd_graphslam/viewer/orbit_camera.h"
 #include "rgbd_graphslam/viewer/recording_loader.h"
 #include "rgbd_graphslam/viewer/run_data.h"
@@ -23,6 +26,8 @@ class ViewerWindow : public nanogui::Screen {
 
     /** Shows a finished run and starts to read its recording. */
     void open(RunData run);
+    /** Shows the run that writes to a folder while it goes on, and its result when it has ended. */
+    void follow(const std::string& folder, std::filesystem::file_time_type since);
 
     /** Takes in what has happened and draws where something changed.
      *  \return how long it may wait for the next event, s */
@@ -61,6 +66,11 @@ class ViewerWindow : public nanogui::Screen {
     void compose();
     SceneView sceneView();
     void takeRecording();
+    void takeLive();
+    void showLive();
+    void showLivePictures(const LiveFrame& frame);
+    void showLivePlots();
+    void endLive();
     void advanceReplay();
     void moveTo(std::optional<double> stamp_s);
     void stepKeyframe(int step);
@@ -86,9 +96,11 @@ class ViewerWindow : public nanogui::Screen {
     std::unique_ptr<RunScene> scene_;
     std::unique_ptr<RecordingLoader> loader_;
     bool all_read_ = true;
+    std::unique_ptr<LiveRun> live_;  // while a run is followed
+    std::string live_folder_;
 
     OrbitCamera camera_;
-    bool follow_ = false, measuring_ = false;
+    bool follow_camera_ = false, measuring_ = false;
     std::vector<Eigen::Vector3d> measured_;
     std::optional<std::size_t> selected_;
     std::optional<double> now_s_;  // nothing: the whole run

@@ -16,6 +16,8 @@ struct SlamJob {
     /** Output folder of an earlier run whose map this one starts from; empty = a map of its own. */
     std::string map_folder;
     MapUse map_use = MapUse::Localise;
+    /** Starts rgbd-viewer beside the run. */
+    bool view = false;
 
     bool localises() const { return !map_folder.empty() && map_use == MapUse::Localise; }
 };

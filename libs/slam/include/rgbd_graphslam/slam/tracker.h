@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "rgbd_graphslam/slam/feature_view.h"
 #include "rgbd_graphslam/slam/pose_solver.h"
 #include "rgbd_graphslam/slam/slam_map.h"
 
@@ -36,6 +37,9 @@ class Tracker {
      *  \param keep_motion false forgets the velocity (after a jump) */
     void setLast(Frame frame, LocatedFrame located, int reference_keyframe, bool keep_motion);
 
+    /** Keypoints of the last frame, and where it missed landmarks of the frame before it. */
+    std::vector<FeatureView> features() const;
+
     bool hasLast() const { return last_.has_value(); }
     void forget() { last_.reset(); }
 
@@ -47,6 +51,7 @@ class Tracker {
         SE3 T_cam_reference;
     };
     SE3 lastPose() const;
+    void addMissed(std::vector<FeatureView>& features) const;
     std::vector<int> matchLast(const Frame& frame, const SE3& predicted, double window_px,
                                PoseSolution& solution) const;
     std::vector<int> localLandmarks(const std::vector<int>& matched);
@@ -57,6 +62,7 @@ class Tracker {
     const Camera& camera_;
     SlamMap& map_;
     std::optional<Last> last_;
+    std::vector<int> landmarks_before_;  // of the frame before the last one
     SE3 motion_;                // T_cam_lastcam of the last two frames
     std::vector<int> visited_;  // one a landmark: search in which it was met last
     int search_ = 0;

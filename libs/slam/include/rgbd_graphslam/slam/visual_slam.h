@@ -10,6 +10,7 @@
 #include "rgbd_graphslam/geometry/camera.h"
 #include "rgbd_graphslam/geometry/rgbd_image.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/slam/feature_view.h"
 #include "rgbd_graphslam/slam/map_snapshot.h"
 #include "rgbd_graphslam/slam/pose_graph.h"
 #include "rgbd_graphslam/slam/slam_options.h"
@@ -109,6 +110,10 @@ class VisualSlam {
     std::vector<TrackedFrame> frames() const;
     std::vector<KeyframeView> keyframes() const;
     std::vector<LandmarkView> landmarks() const;
+    /** Loops closed so far. */
+    const std::vector<PoseEdge>& loops() const;
+    /** Of the last frame; none when it is lost. */
+    std::vector<FeatureView> features() const;
 
     /** The map for another run; finish() first. */
     MapSnapshot snapshot() const;

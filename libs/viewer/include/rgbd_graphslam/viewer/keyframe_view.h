@@ -10,7 +10,7 @@
 namespace rgbd_graphslam {
 
 /** Most points that keyframePoints() makes. */
-inline constexpr std::size_t points_a_keyframe = 4096;
+inline constexpr std::size_t points_a_keyframe = 8192;
 
 /** Coloured points of an evenly thinned depth image, in the camera's optical frame and
  *  in random order.

@@ -7,7 +7,10 @@ namespace rgbd_graphslam {
 struct ViewerJob {
     /** Output folder of rgbd-slam, or a `.ply`. */
     std::string path;
-    /** Once everything is shown, writes the window to this PNG and ends. */
+    /** The run is still going on, or yet to begin; once it ends its result is shown. */
+    bool follow = false;
+    /** Once everything is shown (of a running SLAM: once it has ended), writes the window to this
+     *  PNG and ends. */
     std::string screenshot;
     /** Measures the frame rate for so long, says it and ends; 0 = does not. */
     double benchmark_s = 0;

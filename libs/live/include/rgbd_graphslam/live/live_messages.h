@@ -1,0 +1,76 @@
+/** What a running SLAM tells a viewer. */
+#pragma once
+#include <opencv2/core/mat.hpp>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "rgbd_graphslam/geometry/camera.h"
+#include "rgbd_graphslam/geometry/rgbd_image.h"
+#include "rgbd_graphslam/geometry/trajectory.h"
+
+namespace rgbd_graphslam {
+
+/** Tracked: shows a landmark; new: shows none yet; lost: where a landmark of the frame before
+ * should be but was not found. */
+enum class FeatureState : std::uint8_t { Tracked, New, Lost };
+
+struct LiveFeature {
+    float u = 0, v = 0;  // px of the image as the sensor saw it
+    FeatureState state = FeatureState::New;
+};
+
+/** One line of the plots. */
+struct LiveStatistic {
+    double stamp_s = 0;
+    float frame_ms = 0;  // wall time of tracking it
+    int inliers = 0;
+    bool lost = false;
+};
+
+/** A frame, with images reduced to what a window shows. */
+struct LiveFrame {
+    double stamp_s = 0;
+    bool lost = false;
+    SE3 T_world_cam;
+    /** The keyframe it became, or -1. */
+    int keyframe = -1;
+    Camera camera;  // of the images as the sensor made them
+    std::vector<LiveFeature> features;
+    /** Of all frames since the last message, this one included. */
+    std::vector<LiveStatistic> statistics;
+    std::vector<unsigned char> color_jpeg;
+    /** CV_16UC1, every n-th pixel of every n-th row, from the first on. */
+    cv::Mat depth;
+    int depth_step = 1;
+    double depth_unit_m = 0.001;
+};
+
+/** Everything that a closed loop may have moved. */
+struct LiveMap {
+    Trajectory path, keyframes;
+    std::vector<std::pair<int, int>> loops;  // keyframes
+};
+
+using LiveMessage = std::variant<LiveFrame, LiveMap>;
+
+/** Reduces the images of a frame into the message: colour to a JPEG and depth to every n-th pixel,
+ *  320 columns at most. */
+void putImages(const RgbdImage& image, LiveFrame& frame);
+
+/** Colour and depth at the pixels that both have, and the camera of these images.
+ *  \throws Error when the message holds no usable images */
+struct LiveImages {
+    cv::Mat color, depth;
+    Camera camera;
+};
+LiveImages imagesOf(const LiveFrame& frame);
+
+/** For machines of one kind: both ends run on the same one. */
+std::string encode(const LiveMessage& message);
+
+/** \throws Error when the bytes are no whole message */
+LiveMessage decode(const std::string& bytes);
+
+}  // namespace rgbd_graphslam

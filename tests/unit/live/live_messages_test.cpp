@@ -1,0 +1,109 @@
+#include "rgbd_graphslam/live/live_messages.h"
+
+#include <gtest/gtest.h>
+
+#include "rgbd_graphslam/core/error.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+const SE3 pose(rotationExp({0.1, -0.2, 0.3}), {1, 2, 3});
+
+RgbdImage smoothImage(int width, int height) {
+    RgbdImage image;
+    image.color = cv::Mat(height, width, CV_8UC3);
+    image.depth = cv::Mat(height, width, CV_16UC1);
+    image.depth_unit_m = 0.0002;
+    for (int y = 0; y < height; ++y) {
+        for (int x = 0; x < width; ++x) {
+            image.color.at<cv::Vec3b>(y, x) = cv::Vec3b(static_cast<uchar>(x * 255 / width),
+                                                        static_cast<uchar>(y * 255 / height), 90);
+            image.depth.at<std::uint16_t>(y, x) = static_cast<std::uint16_t>(1000 + 10 * y + x);
+        }
+    }
+    return image;
+}
+
+LiveFrame someFrame() {
+    LiveFrame frame;
+    frame.stamp_s = 1234.5;
+    frame.T_world_cam = pose;
+    frame.keyframe = 7;
+    frame.features = {{1.5f, 2.5f, FeatureState::Lost}, {3, 4, FeatureState::Tracked}};
+    frame.statistics = {{1.0, 5.5f, 300, false}, {2.0, 6.5f, 0, true}};
+    putImages(smoothImage(640, 480), frame);
+    return frame;
+}
+
+LiveMap someMap() {
+    LiveMap map;
+    map.path = {{1, pose}, {2, pose * pose}, {3, pose}};
+    map.keyframes = {{1, pose}, {3, pose}};
+    map.loops = {{1, 0}};
+    return map;
+}
+
+TEST(LiveMessages, framesArriveAsTheyWereSent) {
+    const auto frame = std::get<LiveFrame>(decode(encode(someFrame())));
+    EXPECT_EQ(frame.stamp_s, 1234.5);
+    EXPECT_EQ(frame.keyframe, 7);
+    EXPECT_EQ(frame.T_world_cam.R, pose.R);
+    EXPECT_EQ(frame.T_world_cam.t, pose.t);
+    ASSERT_EQ(frame.features.size(), 2U);
+    EXPECT_EQ(frame.features[0].state, FeatureState::Lost);
+    EXPECT_EQ(frame.features[1].v, 4);
+    ASSERT_EQ(frame.statistics.size(), 2U);
+    EXPECT_TRUE(frame.statistics[1].lost);
+    EXPECT_EQ(frame.statistics[0].inliers, 300);
+}
+
+TEST(LiveMessages, imagesAreEveryOtherPixel) {
+    const LiveImages images = imagesOf(std::get<LiveFrame>(decode(encode(someFrame()))));
+    EXPECT_EQ(images.depth.size(), cv::Size(320, 240));
+    EXPECT_EQ(images.depth.at<std::uint16_t>(100, 50), 1000 + 10 * 200 + 100);
+    EXPECT_NEAR(images.color.at<cv::Vec3b>(120, 160)[0], 127, 8);
+    // A ray through the same place of the world.
+    EXPECT_DOUBLE_EQ(images.camera.unproject(50, 100, 1).x(), Camera().unproject(100, 200, 1).x());
+    EXPECT_EQ(images.camera.width, 320);
+}
+
+TEST(LiveMessages, smallImagesKeepEveryPixel) {
+    LiveFrame frame;
+    putImages(smoothImage(160, 120), frame);
+    EXPECT_EQ(frame.depth_step, 1);
+    EXPECT_EQ(imagesOf(frame).depth.size(), cv::Size(160, 120));
+}
+
+TEST(LiveMessages, aFrameWithoutImagesIsAFrame) {
+    const auto frame = std::get<LiveFrame>(decode(encode(LiveFrame())));
+    EXPECT_TRUE(frame.depth.empty());
+    EXPECT_THROW(imagesOf(frame), Error);
+}
+
+TEST(LiveMessages, mapsArriveAsTheyWereSent) {
+    const auto map = std::get<LiveMap>(decode(encode(someMap())));
+    ASSERT_EQ(map.path.size(), 3U);
+    EXPECT_EQ(map.path[1].T_world_cam.t, (pose * pose).t);
+    EXPECT_EQ(map.keyframes[1].stamp_s, 3);
+    EXPECT_EQ(map.loops, someMap().loops);
+}
+
+TEST(LiveMessages, whatIsCutOffIsRefusedWhereverTheCutIs) {
+    for (const LiveMessage& message : {LiveMessage(someFrame()), LiveMessage(someMap())}) {
+        const std::string bytes = encode(message);
+        for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 50) {
+            EXPECT_THROW(decode(bytes.substr(0, size)), Error) << size;
+        }
+        EXPECT_THROW(decode(bytes + '\0'), Error);
+    }
+    EXPECT_THROW(decode(std::string(100, '\xff')), Error);
+}
+
+TEST(LiveMessages, loopsToNowhereAreRefused) {
+    LiveMap map = someMap();
+    map.loops = {{0, 2}};
+    EXPECT_THROW(decode(encode(map)), Error);
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
