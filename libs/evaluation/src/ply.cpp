@@ -1,5 +1,6 @@
 #include "rgbd_graphslam/evaluation/ply.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -157,12 +158,48 @@ class PlyReader {
 
     void readElement(const Element& element) {
         const bool is_vertex = element.name == "vertex", is_face = element.name == "face";
+        if (is_vertex && header_.binary && isPacked(element)) return readPacked(element.count);
         for (std::uint64_t k = 0; k < element.count; ++k) {
             if (is_vertex) {
                 readVertex(element);
             } else {
                 for (const auto& property : element.properties) readProperty(property, is_face);
             }
+        }
+    }
+
+    /** Whether vertices are coloured points and nothing else, as most maps are. */
+    static bool isPacked(const Element& element) {
+        static const std::vector<std::pair<std::string, Type>> packed = {
+            {"x", Type::Float},   {"y", Type::Float},     {"z", Type::Float},
+            {"red", Type::Uint8}, {"green", Type::Uint8}, {"blue", Type::Uint8}};
+        const auto same = [](const Property& property, const auto& expected) {
+            return !property.is_list && property.name == expected.first &&
+                   property.type == expected.second;
+        };
+        return std::equal(element.properties.begin(), element.properties.end(), packed.begin(),
+                          packed.end(), same);
+    }
+
+    /** Millions of points in a fraction of the time that looking at each number takes. */
+    void readPacked(std::uint64_t count) {
+        constexpr std::size_t place_bytes = 12, record_bytes = 15, records_a_block = 4096;
+        std::vector<char> block(records_a_block * record_bytes);
+        while (count > 0) {
+            const auto records = std::min<std::uint64_t>(count, records_a_block);
+            if (!in_.read(block.data(), static_cast<std::streamsize>(records * record_bytes))) {
+                refuse("is cut off or damaged");
+            }
+            for (std::size_t k = 0; k < records; ++k) {
+                const char* record = block.data() + k * record_bytes;
+                Eigen::Vector3f place;
+                std::memcpy(place.data(), record, place_bytes);
+                if (!place.allFinite()) refuse("has a vertex that is nowhere");
+                model_.vertices.push_back(place);
+                model_.colors.emplace_back();
+                std::memcpy(model_.colors.back().data(), record + place_bytes, 3);
+            }
+            count -= records;
         }
     }
 
@@ -245,7 +282,7 @@ void writeBytes(std::ostream& out, const T& value) {
 bool writeModel(std::ostream& out, const PlyModel& model) {
     out << headerOf(model);
     for (std::size_t k = 0; k < model.vertices.size(); ++k) {
-        for (const float coordinate : model.vertices[k]) writeBytes(out, coordinate);
+        writeBytes(out, model.vertices[k]);
         if (!model.colors.empty()) writeBytes(out, model.colors[k]);
     }
     for (const auto& triangle : model.triangles) {

@@ -6,6 +6,7 @@
 
 #include "file_bytes.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/evaluation/ply.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 
 namespace rgbd_graphslam {
@@ -14,13 +15,7 @@ namespace {
 static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
               "the files written here are little-endian");
 
-constexpr std::size_t ply_record = 15, pcd_record = 16;
-
-std::string plyHeader(std::size_t count) {
-    return "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(count) +
-           "\nproperty float x\nproperty float y\nproperty float z\n"
-           "property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n";
-}
+constexpr std::size_t pcd_record = 16;  // bytes a point
 
 std::string pcdHeader(std::size_t count) {
     const std::string number = std::to_string(count);
@@ -30,35 +25,30 @@ std::string pcdHeader(std::size_t count) {
            number + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + number + "\nDATA binary\n";
 }
 
-/** Header, then one record a point. */
-template <class WriteColor>
-std::string pointBytes(const std::string& header, std::size_t record, const PointMap& points,
-                       WriteColor color) {
-    std::string bytes = header;
-    bytes.resize(header.size() + record * points.size());
-    char* at = bytes.data() + header.size();
-    for (const MapPoint& point : points) {
-        std::memcpy(at, point.position.data(), 12);
-        color(at + 12, point.rgb);
-        at += record;
-    }
-    return bytes;
-}
-
 }  // namespace
 
 void savePly(const std::string& path, const PointMap& points) {
-    const auto color = [](char* at, const auto& rgb) { std::memcpy(at, rgb.data(), 3); };
-    const std::string bytes = pointBytes(plyHeader(points.size()), ply_record, points, color);
-    writeBytes(path, bytes.data(), bytes.size());
+    PlyModel model;
+    model.vertices.reserve(points.size());
+    model.colors.reserve(points.size());
+    for (const auto& [position, rgb] : points) {
+        model.vertices.push_back(position);
+        model.colors.push_back(rgb);
+    }
+    writePly(path, model);
 }
 
 void savePcd(const std::string& path, const PointMap& points) {
-    const auto color = [](char* at, const auto& rgb) {
+    const std::string header = pcdHeader(points.size());
+    std::string bytes = header;
+    bytes.resize(header.size() + pcd_record * points.size());
+    char* at = bytes.data() + header.size();
+    for (const auto& [position, rgb] : points) {
         const std::uint32_t packed = rgb[0] << 16 | rgb[1] << 8 | rgb[2];
-        std::memcpy(at, &packed, 4);
-    };
-    const std::string bytes = pointBytes(pcdHeader(points.size()), pcd_record, points, color);
+        std::memcpy(at, position.data(), 12);
+        std::memcpy(at + 12, &packed, 4);
+        at += pcd_record;
+    }
     writeBytes(path, bytes.data(), bytes.size());
 }
 
@@ -71,23 +61,13 @@ void saveMetricMap(const std::string& path, const PointMap& points) {
 }
 
 PointMap loadPly(const std::string& path) {
-    const std::string bytes = readBytes(path);
-    const auto refuse = [&](const std::string& why) {
-        throw Error("'" + path + "' " + why, "write the map again with rgbd-map");
-    };
-    const std::string vertex = "element vertex ";
-    const auto at = bytes.substr(0, 1000).find(vertex);
-    if (at == std::string::npos) refuse("is no PLY file");
-    const std::size_t count = std::strtoull(bytes.c_str() + at + vertex.size(), nullptr, 10);
-    const std::string header = plyHeader(count);
-    if (bytes.compare(0, header.size(), header) != 0) refuse("is a PLY file of another layout");
-    if ((bytes.size() - header.size()) / ply_record != count) refuse("is cut off");
-    PointMap points(count);
-    const char* record = bytes.data() + header.size();
-    for (MapPoint& point : points) {
-        std::memcpy(point.position.data(), record, 12);
-        std::memcpy(point.rgb.data(), record + 12, 3);
-        record += ply_record;
+    const PlyModel model = readPly(path);
+    if (model.colors.size() != model.vertices.size()) {
+        throw Error("'" + path + "' has no colours", "write the map again with rgbd-map");
+    }
+    PointMap points(model.vertices.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        points[i] = {model.vertices[i], model.colors[i]};
     }
     return points;
 }

@@ -44,8 +44,8 @@ std::unique_ptr<octomap::OcTree> loadBinaryOcTree(const std::string& path);
 /** Reads a coloured `.ot`. \throws Error as loadBinaryOcTree does */
 std::unique_ptr<octomap::ColorOcTree> loadColorOcTree(const std::string& path);
 
-/** Reads a binary PLY as savePly writes it; further vertex properties are refused.
- *  \throws Error when the file is missing, another format or cut off */
+/** Reads the coloured points of a PLY, as readPly does.
+ *  \throws Error as readPly does, or when there are no colours */
 PointMap loadPly(const std::string& path);
 
 /** ROS's map_server pair: an 8-bit PNG (occupied 0, free 254, unknown 205) and the YAML that says
