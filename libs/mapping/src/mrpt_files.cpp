@@ -1,7 +1,8 @@
-#include <mrpt/io/zip.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/serialization/CSerializable.h>
+#include <zlib.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <opencv2/imgcodecs.hpp>
 
@@ -34,13 +35,41 @@ std::string rosYaml(const std::string& image, const mrpt::maps::COccupancyGridMa
     return text;
 }
 
+/** A gz file's bytes; empty when that fails. MRPT's own function goes through a file in /tmp whose
+ *  name processes that run at a time may share, and then mixes up what they write. */
+std::vector<std::uint8_t> packedAsGz(const std::vector<std::uint8_t>& plain) {
+    constexpr int fast = 1, gz_with_largest_window = 15 + 16, default_memory = 8;
+    constexpr std::size_t most_at_a_time = 1 << 30;
+    z_stream stream{};
+    if (deflateInit2(&stream, fast, Z_DEFLATED, gz_with_largest_window, default_memory,
+                     Z_DEFAULT_STRATEGY) != Z_OK) {
+        return {};
+    }
+    std::vector<std::uint8_t> packed;
+    std::vector<std::uint8_t> block(1 << 18);
+    int status = Z_OK;
+    for (std::size_t at = 0; status == Z_OK;) {
+        if (stream.avail_in == 0) {
+            stream.next_in = const_cast<std::uint8_t*>(plain.data() + at);
+            stream.avail_in = static_cast<uInt>(std::min(most_at_a_time, plain.size() - at));
+            at += stream.avail_in;
+        }
+        stream.next_out = block.data();
+        stream.avail_out = static_cast<uInt>(block.size());
+        status = deflate(&stream, at == plain.size() ? Z_FINISH : Z_NO_FLUSH);
+        packed.insert(packed.end(), block.data(), stream.next_out);
+    }
+    deflateEnd(&stream);
+    return status == Z_STREAM_END ? packed : std::vector<std::uint8_t>{};
+}
+
 }  // namespace
 
 void saveMrptObject(const std::string& path, const mrpt::serialization::CSerializable& object) {
-    constexpr int fast = 1;
-    std::vector<std::uint8_t> plain, packed;
+    std::vector<std::uint8_t> plain;
     mrpt::serialization::ObjectToOctetVector(&object, plain);
-    if (plain.empty() || !mrpt::io::zip::compress_gz_data_block(plain, packed, fast)) {
+    const auto packed = packedAsGz(plain);
+    if (plain.empty() || packed.empty()) {
         throw Error("cannot pack the contents of '" + path + "'", "free some memory");
     }
     writeBytes(path, packed.data(), packed.size());
