@@ -16,25 +16,36 @@ struct NormalEquations {
     double cost = 0;
 };
 
-/** Huber's cost of a squared residual and the weight it gives. */
+/** Cost of a squared residual and the weight it gives. */
 struct Robust {
     double cost, weight;
-    Robust(double chi2, double limit) {
-        const double delta = std::sqrt(limit);
-        const double r = std::sqrt(chi2);
-        cost = r <= delta ? chi2 : 2 * delta * r - limit;
-        weight = r <= delta ? 1 : delta / r;
-    }
 };
+
+Robust huber(double chi2, double limit) {
+    if (chi2 <= limit) return {chi2, 1};
+    const double delta = std::sqrt(limit), r = std::sqrt(chi2);
+    return {2 * delta * r - limit, delta / r};
+}
+
+Robust gemanMcClure(double chi2, double limit) {
+    const double share = limit / (limit + chi2);
+    return {chi2 * share, share * share};
+}
 
 class Solver {
   public:
-    Solver(const Camera& camera, const std::vector<PointMatch>& matches, const SE3& initial)
-        : camera_(camera), matches_(matches), pose_(initial), used_(matches.size(), true) {}
+    Solver(const Camera& camera, const std::vector<PointMatch>& matches, const SE3& initial,
+           PoseKernel kernel)
+        : camera_(camera),
+          matches_(matches),
+          pose_(initial),
+          used_(matches.size(), true),
+          kernel_(kernel) {}
 
     PoseSolution solve() {
         for (int round = 0; round < rounds; ++round) {
             minimise();
+            kernel_ = PoseKernel::Huber;
             if (!reclassify() && round > 0) break;
         }
         PoseSolution solution;
@@ -46,6 +57,15 @@ class Solver {
     }
 
   private:
+    Robust robust(const PointMatch& match, double chi2) const {
+        const double limit = chi2Limit(match.measurement);
+        Robust robust =
+            kernel_ == PoseKernel::Huber ? huber(chi2, limit) : gemanMcClure(chi2, limit);
+        robust.cost *= match.trust;
+        robust.weight *= match.trust;
+        return robust;
+    }
+
     NormalEquations build(const SE3& pose) const {
         NormalEquations equations;
         for (std::size_t i = 0; i < matches_.size(); ++i) {
@@ -59,7 +79,7 @@ class Solver {
         const Eigen::Vector3d p = pose * match.position;
         if (p.z() < nearest_depth_m) return;
         const Eigen::Vector3d r = residual(camera_, p, match.measurement);
-        const Robust robust(r.squaredNorm(), chi2Limit(match.measurement));
+        const Robust robust_r = robust(match, r.squaredNorm());
         const Eigen::Matrix3d Jp = residualJacobian(camera_, p, match.measurement);
         Eigen::Matrix<double, 3, 6> J;
         J.leftCols<3>() = Jp;
@@ -67,11 +87,11 @@ class Solver {
             J.row(row).tail<3>() = p.cross(Jp.row(row).transpose()).transpose();
         }
         for (int i = 0; i < 6; ++i) {
-            const Eigen::Vector3d wJ = robust.weight * J.col(i);
+            const Eigen::Vector3d wJ = robust_r.weight * J.col(i);
             for (int j = i; j < 6; ++j) equations.H(i, j) += wJ.dot(J.col(j));
             equations.b(i) -= wJ.dot(r);
         }
-        equations.cost += robust.cost;
+        equations.cost += robust_r.cost;
     }
 
     double cost(const SE3& pose) const {
@@ -80,8 +100,8 @@ class Solver {
             if (!used_[i]) continue;
             const Eigen::Vector3d p = pose * matches_[i].position;
             if (p.z() < nearest_depth_m) continue;
-            const Measurement& m = matches_[i].measurement;
-            sum += Robust(residual(camera_, p, m).squaredNorm(), chi2Limit(m)).cost;
+            const double chi2 = residual(camera_, p, matches_[i].measurement).squaredNorm();
+            sum += robust(matches_[i], chi2).cost;
         }
         return sum;
     }
@@ -124,13 +144,14 @@ class Solver {
     const std::vector<PointMatch>& matches_;
     SE3 pose_;
     std::vector<char> used_;
+    PoseKernel kernel_;
 };
 
 }  // namespace
 
 PoseSolution solvePose(const Camera& camera, const std::vector<PointMatch>& matches,
-                       const SE3& initial) {
-    return Solver(camera, matches, initial).solve();
+                       const SE3& initial, PoseKernel kernel) {
+    return Solver(camera, matches, initial, kernel).solve();
 }
 
 }  // namespace rgbd_graphslam

@@ -11,6 +11,13 @@ constexpr float motion_match_ratio = 0.9f;
 constexpr float map_match_ratio = 0.85f;
 constexpr double widest_view_change_cosine = 0.5;
 
+/** A point that few keyframes have seen is not only less exact: people who walk through the view
+ * are made of such points, and outnumber the room when they are near. */
+double trustIn(std::size_t observations) {
+    constexpr double trust[] = {0.1, 0.1, 0.3, 1};
+    return trust[std::min<std::size_t>(observations, 3)];
+}
+
 /** The matched keypoints in rising order with what they show. */
 struct KeypointMatches {
     std::vector<int> keypoints;
@@ -23,9 +30,11 @@ KeypointMatches collect(const Frame& frame, const std::vector<int>& landmarks, c
     for (std::size_t i = 0; i < landmarks.size(); ++i) {
         if (landmarks[i] == no_landmark) continue;
         const Keypoint& keypoint = frame.keypoints[i];
+        const Landmark& landmark = map.landmark(landmarks[i]);
         result.keypoints.push_back(static_cast<int>(i));
-        result.matches.push_back({map.landmark(landmarks[i]).position,
-                                  measurementOf(keypoint, map.scaleOf(keypoint.octave), sensor)});
+        result.matches.push_back({landmark.position,
+                                  measurementOf(keypoint, map.scaleOf(keypoint.octave), sensor),
+                                  trustIn(landmark.observations.size())});
     }
     return result;
 }
@@ -98,12 +107,14 @@ std::vector<int> Tracker::matchLast(const Frame& frame, const SE3& predicted, do
                                     PoseSolution& solution) const {
     const SE3 T_world_last = lastPose().inverse();
     std::vector<Eigen::Vector3d> positions(last_->frame.keypoints.size());
+    std::vector<double> trust(positions.size(), trustIn(0));
     MatchTable table(frame);
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const Keypoint& keypoint = last_->frame.keypoints[i];
         const int landmark = last_->landmarks[i];
         if (landmark != no_landmark && map_.landmark(landmark).alive) {
             positions[i] = map_.landmark(landmark).position;
+            trust[i] = trustIn(map_.landmark(landmark).observations.size());
         } else if (keypoint.depth_m > 0) {
             positions[i] =
                 T_world_last * camera_.unproject(keypoint.u, keypoint.v, keypoint.depth_m);
@@ -124,8 +135,9 @@ std::vector<int> Tracker::matchLast(const Frame& frame, const SE3& predicted, do
     std::vector<PointMatch> matches;
     for (const auto& [keypoint, point] : pairs) {
         const Keypoint& k = frame.keypoints[keypoint];
-        matches.push_back(
-            {positions[point], measurementOf(k, map_.scaleOf(k.octave), options_.sensor)});
+        matches.push_back({positions[point],
+                           measurementOf(k, map_.scaleOf(k.octave), options_.sensor),
+                           trust[point]});
     }
     solution = solvePose(camera_, matches, predicted);
     std::vector<int> landmarks(frame.keypoints.size(), no_landmark);
@@ -143,7 +155,8 @@ std::optional<LocatedFrame> Tracker::trackLocalMap(const Frame& frame, const SE3
     located.landmarks = landmarks;
     searchLocalLandmarks(frame, T_cam_world, located.landmarks);
     const auto found = collect(frame, located.landmarks, map_, options_.sensor);
-    const PoseSolution solution = solvePose(camera_, found.matches, T_cam_world);
+    const PoseSolution solution =
+        solvePose(camera_, found.matches, T_cam_world, PoseKernel::GemanMcClure);
     if (solution.inliers < options_.tracker.min_inliers) return std::nullopt;
     located.T_cam_world = solution.T_cam_world;
     located.inliers = solution.inliers;

@@ -60,6 +60,38 @@ TEST(PoseSolver, survivesThirtyPercentWrongMatches) {
     EXPECT_LT(solution.inliers, 235);
 }
 
+/** The first matches walk 6 cm to the right together. */
+void walk(Scene& scene, std::size_t matches, double trust) {
+    for (std::size_t i = 0; i < matches; ++i) {
+        scene.matches[i].position.x() -= 0.06;
+        scene.matches[i].trust = trust;
+    }
+}
+
+TEST(PoseSolver, staysWithTheRoomWhenAThirdOfTheMatchesWalk) {
+    SyntheticWorld random(1, 3);
+    Scene scene = makeScene(random, 300, 0);
+    walk(scene, 100, 1);
+    const auto error = [&](PoseKernel kernel) {
+        const auto solution = solvePose(scene.camera, scene.matches, scene.T_cam_world, kernel);
+        return solution.T_cam_world.minus(scene.T_cam_world).norm();
+    };
+    EXPECT_LT(error(PoseKernel::GemanMcClure), 0.004);
+}
+
+TEST(PoseSolver, followsTheTrustedMinority) {
+    SyntheticWorld random(1, 3);
+    Scene scene = makeScene(random, 300, 0);
+    walk(scene, 180, 1);
+    const auto misled = solvePose(scene.camera, scene.matches, scene.T_cam_world);
+    EXPECT_GT(misled.T_cam_world.minus(scene.T_cam_world).norm(), 0.03);
+    scene = makeScene(random, 300, 0);
+    walk(scene, 180, 0.1);
+    const auto solution = solvePose(scene.camera, scene.matches, scene.T_cam_world);
+    EXPECT_LT(solution.T_cam_world.minus(scene.T_cam_world).norm(), 0.006);
+    EXPECT_LT(solution.inliers, 125);
+}
+
 TEST(PoseSolver, informationIsTheInverseOfTheMonteCarloCovariance) {
     constexpr int trials = 400;
     SyntheticWorld random(1, 9);

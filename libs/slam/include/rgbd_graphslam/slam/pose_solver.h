@@ -10,6 +10,9 @@ namespace rgbd_graphslam {
 struct PointMatch {
     Eigen::Vector3d position;  // world, m
     Measurement measurement;
+    /** Weight of the match besides its noise, 0 to 1: how sure it is that the point stands still.
+     */
+    double trust = 1;
 };
 
 struct PoseSolution {
@@ -21,10 +24,16 @@ struct PoseSolution {
     Matrix6d information = Matrix6d::Zero();
 };
 
-/** Minimises the Huber cost of the whitened residuals over the pose by Gauss-Newton with
- *  Levenberg's damping, drops the matches beyond 95 % of chi-square, and minimises again.
- *  \param initial T_cam_world to start from */
+/** How little a match counts whose residual r is beyond the limit c of chi: Huber's c / r draws the
+ *  pose from afar; Geman and McClure's (c^2 / (c^2 + r^2))^2 needs a good initial pose and leaves
+ *  it where it is though a third of the matches, all together, moves otherwise. */
+enum class PoseKernel { Huber, GemanMcClure };
+
+/** Minimises the robust cost of the whitened residuals over the pose by Gauss-Newton with
+ *  Levenberg's damping, drops the matches beyond 95 % of chi-square, and minimises the Huber cost
+ * of the others. \param initial T_cam_world to start from \param kernel of the first minimisation
+ */
 PoseSolution solvePose(const Camera& camera, const std::vector<PointMatch>& matches,
-                       const SE3& initial);
+                       const SE3& initial, PoseKernel kernel = PoseKernel::Huber);
 
 }  // namespace rgbd_graphslam
