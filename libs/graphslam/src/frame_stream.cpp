@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "dead_reckoner.h"
 #include "rgbd_graphslam/core/bounded_queue.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
@@ -126,6 +127,7 @@ class FrameStream::Implementation {
         ended_ = true;  // for good, should reading throw
         while (const auto observation = reader_.next()) {
             noteTruth(*observation);
+            reckoner_.note(*observation);
             auto frame = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation);
             if (!frame) continue;
             if (!first_) first_ = frame;
@@ -133,7 +135,9 @@ class FrameStream::Implementation {
             ended_ = false;
             const std::size_t index = frames_read_++;
             expected_frames_ = std::lround(frames_read_ / std::max(1e-9, reader_.progress()));
-            return StreamedFrame{index, std::move(frame), {}};
+            const DeadReckoning reckoning =
+                reckoner_.at(toSeconds(frame->timestamp), cameraOnRobot(*first_));
+            return StreamedFrame{index, std::move(frame), {}, reckoning};
         }
         return std::nullopt;
     }
@@ -150,6 +154,7 @@ class FrameStream::Implementation {
         times_.measure("decode", [&] { image = toRgbdImage(frame.observation); });
         checkSize(image, *first_, frame.index);
         frame.prepared = prepare_(image);
+        frame.prepared.reckoning = frame.reckoning;
     }
 
     const RunOptions options_;
@@ -158,6 +163,7 @@ class FrameStream::Implementation {
 
     std::mutex reading_;  // guards all down to frames_read_
     RawlogReader reader_;
+    DeadReckoner reckoner_;
     bool ended_ = false;
     std::optional<StreamedFrame> pending_;
     CObservation3DRangeScan::Ptr first_;

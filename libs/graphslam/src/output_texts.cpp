@@ -85,10 +85,11 @@ StageFigures figuresOf(const std::vector<double>& ms) {
 }
 
 std::string framesCsv(const std::vector<TrackedFrame>& frames) {
-    std::string text = "stamp_s,origin,inliers,keyframe\n";
+    std::string text = "stamp_s,origin,inliers,keyframe,part\n";
     for (const TrackedFrame& frame : frames) {
         text += formatted("%.6f,%s,%d,", frame.stamp_s, toString(frame.origin), frame.inliers);
-        text += (frame.keyframe ? std::to_string(*frame.keyframe) : "") + "\n";
+        text += (frame.keyframe ? std::to_string(*frame.keyframe) : "") + ",";
+        text += (frame.origin == FrameOrigin::Lost ? "" : std::to_string(frame.part)) + "\n";
     }
     return text;
 }
@@ -114,9 +115,12 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"frames", report.frames},
         {"tracked", report.tracked},
         {"recovered", report.recovered},
+        {"weak", report.weak},
         {"lost", report.lost},
+        {"apart", report.apart},
         {"out_of_order", report.out_of_order},
         {"keyframes", report.keyframes},
+        {"apart_keyframes", report.apart_keyframes},
         {"culled_keyframes", report.culled_keyframes},
         {"landmarks", report.landmarks},
         {"loops", report.loop_edges.size()},
@@ -133,8 +137,10 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
 }
 
 std::string resultTable(const SlamJob& job, const JobReport& report) {
-    std::string text = formatted("frames        %zu: %zu tracked, %zu recovered, %zu lost\n",
-                                 report.frames, report.tracked, report.recovered, report.lost);
+    std::string text =
+        formatted("frames        %zu: %zu tracked, %zu recovered, %zu weak, %zu lost\n",
+                  report.frames, report.tracked, report.recovered, report.weak, report.lost);
+    if (report.apart > 0) text += formatted("apart         %zu of them\n", report.apart);
     if (report.out_of_order > 0) {
         text += formatted("left out      %zu frames out of order\n", report.out_of_order);
     }

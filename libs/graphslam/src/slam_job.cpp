@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <opencv2/imgcodecs.hpp>
 
 #include "interruption.h"
@@ -36,13 +37,13 @@ class Stopwatch {
     std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-Trajectory located(const std::vector<TrackedFrame>& frames) {
-    Trajectory trajectory;
-    for (const TrackedFrame& frame : frames) {
-        if (frame.origin != FrameOrigin::Lost)
-            trajectory.push_back({frame.stamp_s, frame.T_world_cam});
-    }
-    return trajectory;
+/** The part of the map with most of the frames. */
+int largestPart(const std::vector<TrackedFrame>& frames) {
+    std::map<int, int> count;
+    for (const TrackedFrame& frame : frames) count[frame.part] += frame.origin != FrameOrigin::Lost;
+    const auto fewer = [](const auto& a, const auto& b) { return a.second < b.second; };
+    const auto most = std::max_element(count.begin(), count.end(), fewer);
+    return most == count.end() ? 0 : most->first;
 }
 
 double pathLength(const Trajectory& trajectory) {
@@ -110,6 +111,8 @@ class Job {
 
     void describe();
     void countFrames();
+    Trajectory located() const;
+    bool apart(int part) const { return part != part_; }
     void evaluate(const Trajectory& estimate);
     void collectStages();
 
@@ -132,6 +135,7 @@ class Job {
     JobReport report_;
     std::optional<double> first_stamp_s_, last_stamp_s_;
     int first_keyframe_ = 0;                // of this rawlog
+    int part_ = 0;                          // of the map that is written
     std::vector<SE3> T_previous_keyframe_;  // one a keyframe, the identity for the first
     KeyframeSheet keyframe_sheet_;
     Trajectory truth_;  // beside the estimate, in its world
@@ -202,6 +206,7 @@ std::string Job::progressNote() const {
 void Job::describe() {
     report_.interrupted = interruption_.requested();
     const VisualSlam& slam = session_.slam();
+    part_ = start_ ? slam.keyframes().front().part : largestPart(slam.frames());
     countFrames();
     const auto all = sessions();
     for (std::size_t s = 0; s + 1 < all.size(); ++s) {
@@ -211,13 +216,19 @@ void Job::describe() {
     for (const KeyframeView& keyframe : slam.keyframes()) {
         ++report_.keyframes;
         report_.culled_keyframes += keyframe.culled;
+        if (apart(keyframe.part)) report_.apart_keyframes.push_back(keyframe.id);
     }
     report_.landmarks = slam.landmarks().size();
     for (const PoseEdge& edge : slam.poseGraph().edges) {
         if (edge.kind == EdgeKind::Loop) report_.loop_edges.push_back(edge);
         if (edge.kind == EdgeKind::Covisibility) report_.covisibility_edges.push_back(edge);
     }
-    const Trajectory trajectory = located(slam.frames());
+    if (report_.apart > 0) {
+        sayWarning(std::to_string(report_.apart) +
+                   " frames are in parts of the map that no loop has joined with the rest: they "
+                   "have no pose in trajectory.txt");
+    }
+    const Trajectory trajectory = located();
     report_.path_m = pathLength(trajectory);
     evaluate(trajectory);
     collectStages();
@@ -227,8 +238,20 @@ void Job::countFrames() {
     for (const TrackedFrame& frame : session_.slam().frames()) {
         report_.tracked += frame.origin == FrameOrigin::Tracked;
         report_.recovered += frame.origin == FrameOrigin::Recovered;
+        report_.weak += frame.origin == FrameOrigin::Weak;
         report_.lost += frame.origin == FrameOrigin::Lost;
+        report_.apart += frame.origin != FrameOrigin::Lost && apart(frame.part);
     }
+}
+
+/** Frames with a known place in the map. */
+Trajectory Job::located() const {
+    Trajectory trajectory;
+    for (const TrackedFrame& frame : session_.slam().frames()) {
+        if (frame.origin == FrameOrigin::Lost || apart(frame.part)) continue;
+        trajectory.push_back({frame.stamp_s, frame.T_world_cam});
+    }
+    return trajectory;
 }
 
 void Job::evaluate(const Trajectory& estimate) {
@@ -252,7 +275,8 @@ MapInputs Job::mapInputs() const {
     MapInputs inputs;
     inputs.rawlog = job_.rawlog;
     inputs.earlier = report_.earlier;
-    inputs.trajectory = located(session_.slam().frames());
+    inputs.trajectory = located();
+    inputs.apart = report_.apart_keyframes;
     for (const KeyframeView& keyframe : session_.slam().keyframes()) {
         inputs.keyframes.push_back({keyframe.stamp_s, keyframe.T_world_cam});
     }
@@ -301,6 +325,11 @@ void Job::writeReport() {
 void Job::write() {
     writeTextAtomically(path("config.ini"), configText(job_.options));
     writeTextAtomically(path("frames.csv"), framesCsv(session_.slam().frames()));
+    if (start_ && located().empty()) {
+        throw Error("none of the " + std::to_string(report_.frames) + " frames of '" + job_.rawlog +
+                        "' was found in the map of '" + job_.map_folder + "'",
+                    "check that both show the same place, and the calibration");
+    }
     if (job_.localises()) {
         writeLocalisation();
     } else {
@@ -314,12 +343,7 @@ void Job::write() {
 }
 
 void Job::writeLocalisation() const {
-    Trajectory trajectory = located(session_.slam().frames());
-    if (trajectory.empty()) {
-        throw Error("none of the " + std::to_string(report_.frames) + " frames of '" + job_.rawlog +
-                        "' was found in the map of '" + job_.map_folder + "'",
-                    "check that both show the same place, and the calibration");
-    }
+    Trajectory trajectory = located();
     for (StampedPose& pose : trajectory) pose.T_world_cam = start_->T_up_world * pose.T_world_cam;
     writeTextAtomically(path("trajectory.txt"), toTumText(trajectory));
 }

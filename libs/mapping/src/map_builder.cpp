@@ -213,14 +213,45 @@ MapSummary writeFiles(const MapInputs& inputs, const Maps& maps, const std::stri
 
 }  // namespace
 
-SE3 uprightFromWorld(const MapInputs& inputs, const MapOptions& options) {
-    checkInputs(inputs);
+SE3 uprightFromWorld(const MapInputs& all, const MapOptions& options) {
+    checkInputs(all);
+    const MapInputs inputs = withoutApart(all);
     const auto patches = readPatches(inputs, options);
     const Eigen::Vector3d up = findUp(inputs, options, patches);
     const auto floor = floorHeight(patches, up);
     if (!floor) sayWarning("no level surface was seen: the first camera is taken to be at z = 0");
     const SE3& T_first = inputs.keyframes.front().T_world_cam;
     return uprightFrame(up, floor.value_or(up.dot(T_first.t)), T_first);
+}
+
+MapInputs withoutApart(const MapInputs& inputs) {
+    MapInputs result = inputs;
+    result.apart.clear();
+    result.keyframes.clear();
+    result.loops.clear();
+    result.keyframes_before_loops.clear();
+    const auto& apart = inputs.apart;
+    std::vector<int> number;
+    for (std::size_t k = 0; k < inputs.keyframes.size(); ++k) {
+        const bool left_out = std::binary_search(apart.begin(), apart.end(), static_cast<int>(k));
+        number.push_back(left_out ? -1 : static_cast<int>(result.keyframes.size()));
+        if (left_out) continue;
+        result.keyframes.push_back(inputs.keyframes[k]);
+        if (k < inputs.keyframes_before_loops.size())
+            result.keyframes_before_loops.push_back(inputs.keyframes_before_loops[k]);
+    }
+    for (const MapLoopEdge& loop : inputs.loops) {
+        if (number[loop.from] < 0 || number[loop.to] < 0) continue;
+        result.loops.push_back({number[loop.from], number[loop.to], loop.inliers});
+    }
+    std::size_t begin = 0;
+    for (EarlierSession& session : result.earlier) {
+        const auto first = number.begin() + static_cast<std::ptrdiff_t>(begin);
+        const auto last = first + static_cast<std::ptrdiff_t>(session.keyframes);
+        begin += session.keyframes;
+        session.keyframes -= static_cast<std::size_t>(std::count(first, last, -1));
+    }
+    return result;
 }
 
 MapInputs transformed(const SE3& T_a_world, MapInputs inputs) {
@@ -231,9 +262,10 @@ MapInputs transformed(const SE3& T_a_world, MapInputs inputs) {
     return inputs;
 }
 
-MapSummary writeMaps(const MapInputs& inputs, const MapOptions& options,
+MapSummary writeMaps(const MapInputs& all, const MapOptions& options,
                      const std::string& out_folder) {
-    checkInputs(inputs);
+    checkInputs(all);
+    const MapInputs inputs = withoutApart(all);
     makeWritableFolder(out_folder);
     Maps maps;
     const std::size_t found = addSessions(maps, inputs, options);

@@ -66,9 +66,10 @@ MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
     try {
         inputs.loops = loopsOf(summary);
         inputs.earlier = earlierSessionsOf(summary);
+        inputs.apart = summary.value("apart_keyframes", std::vector<int>());
     } catch (const nlohmann::json::exception&) {
-        throw Error("'loop_edges' or 'earlier_sessions' in '" + (root / "summary.json").string() +
-                        "' is not what rgbd-slam writes",
+        throw Error("'loop_edges', 'earlier_sessions' or 'apart_keyframes' in '" +
+                        (root / "summary.json").string() + "' is not what rgbd-slam writes",
                     "run rgbd-slam again");
     }
     const fs::path before = root / "keyframes_before_loops.txt";

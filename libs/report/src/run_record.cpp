@@ -23,11 +23,12 @@ std::string bytesOf(const fs::path& path) {
 FrameState stateOf(const std::string& word, const std::string& place) {
     if (word == "tracked") return FrameState::Tracked;
     if (word == "recovered") return FrameState::Recovered;
+    if (word == "weak") return FrameState::Weak;
     if (word == "lost") return FrameState::Lost;
-    throw Error(place + ": a frame is tracked, recovered or lost", "run rgbd-slam again");
+    throw Error(place + ": a frame is tracked, recovered, weak or lost", "run rgbd-slam again");
 }
 
-/** Lines of stamp_s,origin,inliers,keyframe below a line of titles. */
+/** Lines of stamp_s,origin,inliers,keyframe,part below a line of titles. */
 void readFrames(const fs::path& path, RunRecord& run) {
     std::ifstream in(path);
     if (!in) throw Error("cannot read '" + path.string() + "'", "run rgbd-slam again");
@@ -48,7 +49,8 @@ void readFrames(const fs::path& path, RunRecord& run) {
         if (run.frames.empty()) run.start_s = stamp_s;
         frame.seconds = stamp_s - run.start_s;
         frame.state = stateOf(state, place);
-        frame.keyframe = static_cast<bool>(fields >> keyframe);
+        std::getline(fields, keyframe, ',');
+        frame.keyframe = !keyframe.empty();
         run.frames.push_back(frame);
     }
 }

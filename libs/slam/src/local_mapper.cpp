@@ -44,6 +44,7 @@ void LocalMapper::insert(int keyframe) {
     cullKeyframes(keyframe);
     if (!options_.mapper.local_adjustment || keyframe == 0) return;
     pending_ = makeJob(keyframe);
+    if (pending_->problem.observations.empty()) return pending_.reset();  // the first of its part
     Job* job = pending_.get();
     const int iterations = options_.mapper.iterations;
     job->done = std::async(std::launch::async, [job, iterations] {

@@ -86,6 +86,7 @@ double LoopCloser::pathLength(int from, int to) const {
 }
 
 LoopCloser::Drift LoopCloser::greatestDrift(int from, int to) const {
+    if (map_.keyframe(from).part != map_.keyframe(to).part) return anything;
     const double gathered = options_.loops.max_drift_share * pathLength(from, to);
     return {least_drift_m + gathered, least_drift_rad + gathered};
 }
@@ -98,14 +99,23 @@ bool LoopCloser::mightSee(int keyframe, int candidate) const {
            apart.angle() <= widest_view_rad + drift.rad;
 }
 
+/** The first of the keyframes just before one, which tracking ties to it. */
+int LoopCloser::firstTooNear(int keyframe) const {
+    const int farthest = std::max(0, keyframe - options_.loops.min_keyframe_gap + 1);
+    int first = keyframe;
+    while (first > farthest && map_.keyframe(first).link == Link::Tracked) --first;
+    return first;
+}
+
 /** Best-voted earlier keyframes within reach that the map does not connect with this one yet. */
 std::vector<int> LoopCloser::candidatesFor(int keyframe) const {
     const auto neighbours = map_.covisible(keyframe, 1);
+    const int newest = firstTooNear(keyframe);
     std::vector<int> candidates;
     for (const PlaceVote& vote : index_.query(placeDescriptors(keyframe))) {
         if (vote.votes < fewest_votes) break;
         if (static_cast<int>(candidates.size()) >= options_.loops.candidates) break;
-        if (vote.keyframe > keyframe - options_.loops.min_keyframe_gap) continue;
+        if (vote.keyframe >= newest) continue;
         if (map_.keyframe(vote.keyframe).culled || !mightSee(keyframe, vote.keyframe)) continue;
         const bool connected =
             std::any_of(neighbours.begin(), neighbours.end(),
@@ -259,7 +269,8 @@ PoseEdge LoopCloser::odometryEdge(int keyframe) const {
     const std::vector<int> shared = sharedLandmarks(keyframe, edge.from);
     edge.inliers = static_cast<int>(
         std::count_if(shared.begin(), shared.end(), [](int id) { return id != no_landmark; }));
-    const bool measured = map_.keyframe(keyframe).follows || edge.inliers >= fewest_for_information;
+    const bool measured =
+        map_.keyframe(keyframe).link != Link::None || edge.inliers >= fewest_for_information;
     edge.information = measured ? informationOf(keyframe, shared) : informationFrom(unknown_sigma);
     return edge;
 }
@@ -280,7 +291,7 @@ PoseGraph LoopCloser::poseGraph() const {
     for (int k = 0; k < keyframes; ++k) graph.nodes.push_back(map_.T_cam_world(k).inverse());
     for (int k = 1; k < keyframes; ++k) {
         graph.edges.push_back(odometryEdge(k));
-        const bool follows = map_.keyframe(k).follows;
+        const bool follows = map_.keyframe(k).link == Link::Tracked;
         const PoseEdge odometry = graph.edges.back();
         for (const Covisibility& c :
              map_.covisible(k, follows ? strong_covisibility : fewest_that_tie)) {

@@ -119,11 +119,17 @@ void put(const Keyframe& keyframe, ByteWriter& out) {
     put(keyframe.frame, out);
     encodePose(keyframe.T_cam_world, out);
     out.putCount(keyframe.part);
-    out.put<std::uint8_t>(keyframe.follows);
+    out.put(static_cast<std::uint8_t>(keyframe.link));
     out.put<std::uint8_t>(keyframe.culled);
     if (!keyframe.culled) return;
     out.putCount(keyframe.parent);
     encodePose(keyframe.T_cam_parent, out);
+}
+
+Link getLink(ByteReader& in) {
+    const auto link = in.get<std::uint8_t>();
+    if (link > static_cast<std::uint8_t>(Link::None)) throw DamagedBytes("a link of no kind");
+    return static_cast<Link>(link);
 }
 
 Keyframe getKeyframe(ByteReader& in, int id, std::size_t keyframes, const Camera& camera,
@@ -134,7 +140,7 @@ Keyframe getKeyframe(ByteReader& in, int id, std::size_t keyframes, const Camera
     keyframe.landmarks.assign(keyframe.frame.keypoints.size(), no_landmark);
     keyframe.T_cam_world = decodePose(in);
     keyframe.part = getIndex(in, keyframes, "part");
-    keyframe.follows = in.get<std::uint8_t>() != 0;
+    keyframe.link = getLink(in);
     keyframe.culled = in.get<std::uint8_t>() != 0;
     if (!keyframe.culled) return keyframe;
     keyframe.parent = getIndex(in, keyframes, "keyframe");

@@ -16,17 +16,33 @@ void SlamMap::restore(std::vector<Keyframe> keyframes, std::vector<Landmark> lan
     votes_.assign(keyframes_.size(), 0);
 }
 
-int SlamMap::addKeyframe(Frame frame, const SE3& T_cam_world, int part, bool follows) {
+int SlamMap::addKeyframe(Frame frame, const SE3& T_cam_world, int part, Link link) {
     Keyframe keyframe;
     keyframe.part = part;
-    keyframe.follows = follows;
+    keyframe.link = link;
     keyframe.id = static_cast<int>(keyframes_.size());
     keyframe.landmarks.assign(frame.keypoints.size(), no_landmark);
     keyframe.frame = std::move(frame);
+    keyframe.frame.view = {};
     keyframe.T_cam_world = T_cam_world;
     keyframes_.push_back(std::move(keyframe));
     votes_.push_back(0);
     return keyframes_.back().id;
+}
+
+void SlamMap::joinPart(int part, int into, const SE3& T_new_old) {
+    for (Landmark& landmark : landmarks_) {
+        if (!landmark.alive) continue;
+        if (keyframes_[landmark.observations.front().keyframe].part != part) continue;
+        landmark.position = T_new_old * landmark.position;
+        landmark.view_direction = T_new_old.R * landmark.view_direction;
+    }
+    const SE3 T_old_new = T_new_old.inverse();
+    for (Keyframe& keyframe : keyframes_) {
+        if (keyframe.part != part) continue;
+        keyframe.part = into;
+        keyframe.T_cam_world = keyframe.T_cam_world * T_old_new;
+    }
 }
 
 int SlamMap::addLandmark(const Eigen::Vector3d& position, int keyframe, int keypoint) {

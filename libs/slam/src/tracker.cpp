@@ -10,6 +10,8 @@ namespace {
 constexpr float motion_match_ratio = 0.9f;
 constexpr float map_match_ratio = 0.85f;
 constexpr double widest_view_change_cosine = 0.5;
+/** Of all matches, for a pose that no landmark confirms. */
+constexpr double least_agreement = 0.5;
 
 /** A point that few keyframes have seen is not only less exact: people who walk through the view
  * are made of such points, and outnumber the room when they are near. */
@@ -97,6 +99,22 @@ std::optional<LocatedFrame> Tracker::track(const Frame& frame) {
         const std::vector<int> landmarks = matchLast(frame, predicted, window, solution);
         if (solution.inliers < options_.tracker.min_inliers) continue;
         if (auto located = trackLocalMap(frame, solution.T_cam_world, landmarks)) return located;
+    }
+    return std::nullopt;
+}
+
+std::optional<LocatedFrame> Tracker::followLast(const Frame& frame, const SE3& predicted) const {
+    if (!last_) return std::nullopt;
+    for (const double window :
+         {options_.tracker.motion_window_px, options_.tracker.wide_window_px}) {
+        PoseSolution solution;
+        std::vector<int> landmarks = matchLast(frame, predicted, window, solution);
+        const double matches = static_cast<double>(solution.inlier.size());
+        if (solution.inliers <
+            std::max<double>(options_.tracker.min_inliers, least_agreement * matches)) {
+            continue;
+        }
+        return LocatedFrame{solution.T_cam_world, std::move(landmarks), solution.inliers};
     }
     return std::nullopt;
 }

@@ -10,12 +10,15 @@
 #include "rgbd_graphslam/slam/loop_closer.h"
 #include "rgbd_graphslam/slam/stage_times.h"
 #include "rgbd_graphslam/slam/tracker.h"
+#include "rgbd_graphslam/slam/weak_tracker.h"
 
 namespace rgbd_graphslam {
 namespace {
 
 constexpr int fewest_first_landmarks = 50;
 constexpr int final_iterations = 10;
+/** Of the points that an anchor had at best; with fewer the next frame follows another. */
+constexpr double anchor_share = 0.5;
 
 /** A frame as it is kept: tied to a keyframe, so that it moves with the map. */
 struct FrameRecord {
@@ -26,6 +29,11 @@ struct FrameRecord {
     SE3 T_cam_reference;
     std::optional<int> keyframe;
 };
+
+int keypointsWithDepth(const Frame& frame) {
+    return static_cast<int>(std::count_if(frame.keypoints.begin(), frame.keypoints.end(),
+                                          [](const Keypoint& k) { return k.depth_m > 0; }));
+}
 
 std::string pyramidText(int levels, double scale_factor) {
     return std::to_string(levels) + " pyramid levels of factor " + std::to_string(scale_factor);
@@ -57,6 +65,8 @@ const char* toString(FrameOrigin origin) {
             return "tracked";
         case FrameOrigin::Recovered:
             return "recovered";
+        case FrameOrigin::Weak:
+            return "weak";
         case FrameOrigin::Lost:
             break;
     }
@@ -79,6 +89,7 @@ class VisualSlam::Implementation {
     TrackedFrame track(Frame frame);
     TrackedFrame view(const FrameRecord& record) const;
     void handOver();
+    void join(const PoseEdge& loop);
 
     const SlamOptions options;
     const Camera camera;
@@ -87,18 +98,33 @@ class VisualSlam::Implementation {
     Tracker tracker;
     LocalMapper mapper;
     LoopCloser closer;
+    WeakTracker weak;
+    /** While the map is not seen: follows one frame for as long as it can, so that errors do not
+     * add up from frame to frame. */
+    std::optional<Tracker> anchor;
+    int anchor_inliers = 0;
     KeyframeDecision decision;
     std::vector<FrameRecord> records;
     int frames_since_keyframe = 0;
     /** The map may not change. */
     bool frozen = false;
-    /** Whether the way from the last keyframe was measured throughout. */
-    bool unbroken = true;
+    /** Of the next keyframe to the last one. */
+    Link link = Link::Tracked;
+    /** Whether any frame of this run has been located. */
+    bool placed = false;
+    /** Frames since the map was seen that could have gone on with it. */
+    int astray = 0;
     mutable StageTimes times;
 
   private:
     void start(Frame frame, FrameRecord& record);
-    void locate(Frame frame, FrameRecord& record);
+    std::optional<LocatedFrame> locate(const Frame& frame, FrameRecord& record);
+    void keep(Frame frame, LocatedFrame located, FrameRecord& record);
+    void stray(Frame frame, FrameRecord& record);
+    std::optional<SE3> weakMotion(const Frame& frame);
+    bool canBeginAnew(const Frame& frame, FrameOrigin origin);
+    void beginAnew(Frame frame, FrameRecord& record);
+    SE3 lastPose() const;
     int insertKeyframe(const Frame& frame, const LocatedFrame& located, int part);
 };
 
@@ -108,7 +134,7 @@ void VisualSlam::Implementation::restore(MapSnapshot snapshot, MapUse use) {
     times.measure("place-index", [&] { closer.restore(std::move(snapshot.loops)); });
     decision.reset(map.keyframes().back());
     frozen = use == MapUse::Localise;
-    unbroken = false;
+    link = Link::None;
 }
 
 TrackedFrame VisualSlam::Implementation::track(Frame frame) {
@@ -125,7 +151,12 @@ TrackedFrame VisualSlam::Implementation::track(Frame frame) {
     if (map.keyframes().empty()) {
         start(std::move(frame), record);
     } else {
-        locate(std::move(frame), record);
+        auto located = locate(frame, record);
+        if (located) {
+            keep(std::move(frame), std::move(*located), record);
+        } else {
+            stray(std::move(frame), record);
+        }
     }
     records.push_back(record);
     return view(record);
@@ -133,55 +164,140 @@ TrackedFrame VisualSlam::Implementation::track(Frame frame) {
 
 /** The first frame with enough depth becomes the origin of the world. */
 void VisualSlam::Implementation::start(Frame frame, FrameRecord& record) {
-    const auto has_depth = [](const Keypoint& k) { return k.depth_m > 0; };
-    const auto& keypoints = frame.keypoints;
-    if (std::count_if(keypoints.begin(), keypoints.end(), has_depth) < fewest_first_landmarks)
-        return;
-    LocatedFrame located;
-    located.landmarks.assign(keypoints.size(), no_landmark);
-    const int id = insertKeyframe(frame, located, 0);
-    located.landmarks = map.keyframe(id).landmarks;
-    record.origin = FrameOrigin::Tracked;
-    record.keyframe = id;
-    record.inliers = static_cast<int>(map.aliveLandmarks());
-    tracker.setLast(std::move(frame), std::move(located), id, false);
+    if (keypointsWithDepth(frame) < fewest_first_landmarks) return;
+    beginAnew(std::move(frame), record);
 }
 
-void VisualSlam::Implementation::locate(Frame frame, FrameRecord& record) {
+std::optional<LocatedFrame> VisualSlam::Implementation::locate(const Frame& frame,
+                                                               FrameRecord& record) {
     std::optional<LocatedFrame> located;
     times.measure("track", [&] { located = tracker.track(frame); });
     record.origin = FrameOrigin::Tracked;
-    if (!located) {
+    if (located) return located;
+    handOver();
+    times.measure("relocalise", [&] { located = closer.relocalise(frame, tracker); });
+    record.origin = FrameOrigin::Recovered;
+    if (!located) return located;
+    tracker.forget();
+    link = Link::None;
+    return located;
+}
+
+/** T_cam_world of the last frame, or where it was known last. */
+SE3 VisualSlam::Implementation::lastPose() const {
+    if (records.empty()) return map.T_cam_world(0);
+    return records.back().T_cam_reference * map.T_cam_world(records.back().reference_keyframe);
+}
+
+void VisualSlam::Implementation::keep(Frame frame, LocatedFrame located, FrameRecord& record) {
+    weak.restart(frame, placed ? lastPose() * located.T_cam_world.inverse() : SE3());
+    placed = true;
+    astray = 0;
+    anchor.reset();
+    int reference = map.observers(located.landmarks).front().keyframe;
+    const bool proves_a_place = record.origin == FrameOrigin::Recovered;
+    if (!frozen && (decision.wants(map, located, frames_since_keyframe) || proves_a_place)) {
         handOver();
-        times.measure("relocalise", [&] { located = closer.relocalise(frame, tracker); });
-        record.origin = located ? FrameOrigin::Recovered : FrameOrigin::Lost;
-        tracker.forget();
-        unbroken = false;
-    }
-    if (!located) {
-        if (records.empty()) return;
-        record.reference_keyframe = records.back().reference_keyframe;
-        record.T_cam_reference = records.back().T_cam_reference;
-        return;
-    }
-    int reference = map.observers(located->landmarks).front().keyframe;
-    if (!frozen && decision.wants(map, *located, frames_since_keyframe)) {
-        handOver();
-        reference = insertKeyframe(frame, *located, map.keyframe(reference).part);
+        reference = insertKeyframe(frame, located, map.keyframe(reference).part);
         record.keyframe = reference;
-        located->landmarks = map.keyframe(reference).landmarks;
+        located.landmarks = map.keyframe(reference).landmarks;
     }
-    record.inliers = located->inliers;
+    record.inliers = located.inliers;
     record.reference_keyframe = reference;
-    record.T_cam_reference = located->T_cam_world * map.T_cam_world(reference).inverse();
-    tracker.setLast(std::move(frame), std::move(*located), reference, true);
+    record.T_cam_reference = located.T_cam_world * map.T_cam_world(reference).inverse();
+    tracker.setLast(std::move(frame), std::move(located), reference, true);
+}
+
+/** The map is not seen: the frame is tied to the last one, begins anew, or is lost. */
+void VisualSlam::Implementation::stray(Frame frame, FrameRecord& record) {
+    std::optional<SE3> T_last_cam;
+    if (placed && options.recovery.weak_motion) {
+        times.measure("weak-motion", [&] { T_last_cam = weakMotion(frame); });
+    }
+    record.origin = T_last_cam ? FrameOrigin::Weak : FrameOrigin::Lost;
+    if (T_last_cam && link == Link::Tracked) link = Link::Weak;
+    SE3 T_cam_world = T_last_cam.value_or(SE3()).inverse() * lastPose();
+    // Inverses that are transposes double the rounding error of a chain with each link.
+    T_cam_world.R = orthonormalised(T_cam_world.R);
+    record.reference_keyframe = records.empty() ? 0 : records.back().reference_keyframe;
+    record.T_cam_reference = T_cam_world * map.T_cam_world(record.reference_keyframe).inverse();
+    if (!frozen && canBeginAnew(frame, record.origin)) return beginAnew(std::move(frame), record);
+    if (!T_last_cam) return tracker.forget();
+    LocatedFrame located{T_cam_world, std::vector<int>(frame.keypoints.size(), no_landmark), 0};
+    tracker.setLast(std::move(frame), std::move(located), record.reference_keyframe, true);
+}
+
+std::optional<SE3> VisualSlam::Implementation::weakMotion(const Frame& frame) {
+    if (!anchor) {
+        anchor.emplace(tracker);
+        anchor_inliers = 0;
+    }
+    const auto followed = anchor->followLast(frame, weak.guess(frame).inverse() * lastPose());
+    if (!followed) {
+        anchor.reset();
+        return weak.follow(frame);
+    }
+    anchor_inliers = std::max(anchor_inliers, followed->inliers);
+    if (followed->inliers < anchor_share * anchor_inliers) anchor.reset();
+    const SE3 T_last_cam = lastPose() * followed->T_cam_world.inverse();
+    weak.restart(frame, T_last_cam);
+    return T_last_cam;
+}
+
+bool VisualSlam::Implementation::canBeginAnew(const Frame& frame, FrameOrigin origin) {
+    if (keypointsWithDepth(frame) < options.recovery.fewest_keypoints) return false;
+    ++astray;
+    return astray >= (origin == FrameOrigin::Weak ? options.recovery.weak_keyframe_after
+                                                  : options.recovery.new_part_after);
+}
+
+/** A keyframe that shares nothing with those before: where weak motion says it is, or in a part of
+ *  its own. */
+void VisualSlam::Implementation::beginAnew(Frame frame, FrameRecord& record) {
+    handOver();
+    const bool tied = record.origin == FrameOrigin::Weak;
+    link = tied ? Link::Weak : Link::None;
+    const int new_part = static_cast<int>(map.keyframes().size());
+    LocatedFrame located;
+    located.landmarks.assign(frame.keypoints.size(), no_landmark);
+    if (!map.keyframes().empty()) {
+        located.T_cam_world = record.T_cam_reference * map.T_cam_world(record.reference_keyframe);
+    }
+    const int id = insertKeyframe(frame, located,
+                                  tied ? map.keyframe(record.reference_keyframe).part : new_part);
+    located.landmarks = map.keyframe(id).landmarks;
+    if (!tied) record.origin = FrameOrigin::Tracked;
+    record.keyframe = record.reference_keyframe = id;
+    record.T_cam_reference = SE3();
+    record.inliers =
+        static_cast<int>(std::count_if(located.landmarks.begin(), located.landmarks.end(),
+                                       [](int l) { return l != no_landmark; }));
+    placed = true;
+    astray = 0;
+    anchor.reset();
+    weak.restart(frame, SE3());
+    tracker.setLast(std::move(frame), std::move(located), id, tied);
+}
+
+/** Brings two parts of the map together where a loop says. */
+void VisualSlam::Implementation::join(const PoseEdge& loop) {
+    const int from = map.keyframe(loop.from).part, to = map.keyframe(loop.to).part;
+    if (from == to) return;
+    handOver();
+    const SE3 T_world_to = map.T_cam_world(loop.from).inverse() * loop.T_from_to;
+    const SE3 motion = T_world_to * map.T_cam_world(loop.to);
+    if (to > from) {
+        map.joinPart(to, from, motion);
+    } else {
+        map.joinPart(from, to, motion.inverse());
+    }
 }
 
 int VisualSlam::Implementation::insertKeyframe(const Frame& frame, const LocatedFrame& located,
                                                int part) {
     int id = 0;
     times.measure("map", [&] {
-        id = map.addKeyframe(frame, located.T_cam_world, part, unbroken);
+        id = map.addKeyframe(frame, located.T_cam_world, part, link);
         for (std::size_t i = 0; i < located.landmarks.size(); ++i) {
             if (located.landmarks[i] == no_landmark) continue;
             map.addObservation(located.landmarks[i], id, static_cast<int>(i));
@@ -190,7 +306,7 @@ int VisualSlam::Implementation::insertKeyframe(const Frame& frame, const Located
     });
     decision.reset(map.keyframe(id));
     frames_since_keyframe = 0;
-    unbroken = true;
+    link = Link::Tracked;
     return id;
 }
 
@@ -210,6 +326,7 @@ TrackedFrame VisualSlam::Implementation::view(const FrameRecord& record) const {
     frame.keyframe = record.keyframe;
     frame.T_reference_cam = record.T_cam_reference.inverse();
     if (map.keyframes().empty()) return frame;
+    frame.part = map.keyframe(record.reference_keyframe).part;
     frame.T_world_cam =
         (record.T_cam_reference * map.T_cam_world(record.reference_keyframe)).inverse();
     return frame;
@@ -244,6 +361,7 @@ std::vector<PoseEdge> VisualSlam::findLoops(int keyframe) {
     std::vector<PoseEdge> loops;
     if (!impl_->options.loops.enabled) return loops;
     impl_->times.measure("find-loops", [&] { loops = impl_->closer.findLoops(keyframe); });
+    for (const PoseEdge& loop : loops) impl_->join(loop);
     return loops;
 }
 
@@ -273,7 +391,8 @@ std::vector<KeyframeView> VisualSlam::keyframes() const {
     std::vector<KeyframeView> views;
     for (const Keyframe& keyframe : impl_->map.keyframes()) {
         views.push_back({keyframe.id, keyframe.frame.stamp_s,
-                         impl_->map.T_cam_world(keyframe.id).inverse(), keyframe.culled});
+                         impl_->map.T_cam_world(keyframe.id).inverse(), keyframe.culled,
+                         keyframe.part});
     }
     return views;
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationOdometry.h>
 
 #include <atomic>
 #include <chrono>
@@ -133,6 +134,50 @@ TEST_P(StreamOfARawlog, rawlogWithoutFramesIsRefused) {
         writer.write(imu);
     });
     EXPECT_THROW(FrameStream(rawlog_, withThreads(GetParam())), Error);
+}
+
+/** Wheels and gyroscope on their way round, at other moments than the frames. */
+void writeWithSensors(RawlogWriter& writer, double turn_rad) {
+    const double turn_rad_s = turn_rad / room_period_s;
+    const auto film = filmRoundTrip(frames, turn_rad);
+    for (int i = -4; i < 4 * frames; ++i) {
+        const double at_frame = 0.25 * i;
+        const auto time = toMrptTime(room_start_s + at_frame * room_period_s - 0.002);
+        mrpt::obs::CObservationIMU imu;
+        imu.timestamp = time;
+        imu.sensorPose = mrpt::poses::CPose3D(0, 0, 0, M_PI / 2, 0, 0);
+        imu.set(mrpt::obs::IMU_WX, 0);
+        imu.set(mrpt::obs::IMU_WY, 0);
+        imu.set(mrpt::obs::IMU_WZ, turn_rad_s);
+        writer.write(imu);
+        mrpt::obs::CObservationOdometry odometry;
+        odometry.timestamp = time;
+        const double angle = turn_rad_s * (at_frame * room_period_s - 0.002);
+        odometry.odometry = {3 + 0.5 * std::cos(angle), 0.5 * std::sin(angle), angle};
+        writer.write(odometry);
+        if (i >= 0 && i % 4 == 0) writer.write(*film[i / 4]);
+    }
+}
+
+TEST_P(StreamOfARawlog, framesCarryWhatWheelsAndGyroscopeSay) {
+    constexpr double turn_rad = 0.02;
+    write([](RawlogWriter& writer) { writeWithSensors(writer, turn_rad); });
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    std::vector<DeadReckoning> reckoned;
+    while (const auto frame = stream.next()) reckoned.push_back(frame->prepared.reckoning);
+    ASSERT_EQ(reckoned.size(), static_cast<std::size_t>(frames));
+    const SE3 T_base_cam = T_optical_from_mrpt.inverse();
+    for (int i = 1; i < frames; ++i) {
+        const SE3 truth =
+            (roundTrip(0, turn_rad) * T_base_cam).inverse() * (roundTrip(i, turn_rad) * T_base_cam);
+        ASSERT_TRUE(reckoned[i].T_odometry_cam && reckoned[i].R_gyroscope_cam) << i;
+        const SE3 wheels = reckoned[0].T_odometry_cam->inverse() * *reckoned[i].T_odometry_cam;
+        EXPECT_LT(wheels.minus(truth).norm(), 1e-4) << i;
+        const Eigen::Matrix3d turned =
+            reckoned[0].R_gyroscope_cam->transpose() * *reckoned[i].R_gyroscope_cam;
+        EXPECT_LT((turned - truth.R).norm(), 1e-6) << i;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Threads, StreamOfARawlog, testing::Values(1, 2, 5));

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <mrpt/graphs/CNetworkOfPoses.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <algorithm>
@@ -14,6 +15,7 @@
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 #include "rgbd_graphslam/graphslam/sparse_map_file.h"
+#include "rgbd_graphslam/mapping/run_folder.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -187,6 +189,66 @@ TEST_F(JobOnARawlog, nothingToSeeIsAnErrorThatSaysSo) {
         EXPECT_NE(std::string(e.what()).find("could start a map"), std::string::npos) << e.what();
     }
     EXPECT_EQ(linesOf(output("frames.csv")), 4u);
+}
+
+/** Blackens the colour images [first, last). */
+void cover(std::vector<mrpt::obs::CObservation3DRangeScan::Ptr>& film, int first, int last,
+           bool depth_too) {
+    for (int i = first; i < last; ++i) {
+        setColor(*film[i], cv::Mat(240, 320, CV_8UC3, cv::Scalar::all(0)));
+        if (depth_too) setDepth(*film[i], cv::Mat(240, 320, CV_16UC1, cv::Scalar::all(0)));
+    }
+}
+
+TEST_F(JobOnARawlog, coveredFramesAreTiedInByOdometry) {
+    auto film = filmRoundTrip(frames, turn_rad);
+    cover(film, 10, 18, true);
+    writeRawlog(job_.rawlog, RawlogStorage::Embedded, [&](RawlogWriter& writer) {
+        for (int i = 0; i < frames; ++i) {
+            mrpt::obs::CObservationOdometry odometry;
+            odometry.timestamp = film[i]->timestamp;
+            const SE3 pose = roundTrip(i, turn_rad);
+            odometry.odometry = {pose.t.x(), pose.t.y(), i * turn_rad};
+            writer.write(odometry);
+            writer.write(*film[i]);
+        }
+    });
+    const JobReport report = runSlamJob(job_);
+    EXPECT_EQ(report.weak, 8u);
+    EXPECT_EQ(report.lost, 0u);
+    EXPECT_EQ(linesOf(output("trajectory.txt")), 1u + frames);
+    const Trajectory path = readTumTrajectory(job_.out_folder + "/trajectory.txt");
+    const SE3 T_base_cam = T_optical_from_mrpt.inverse();
+    const SE3 T_world_room = path[0].T_world_cam * (roundTrip(0, turn_rad) * T_base_cam).inverse();
+    for (int i = 0; i < frames; ++i) {
+        const SE3 truth = T_world_room * roundTrip(i, turn_rad) * T_base_cam;
+        EXPECT_LT((path[i].T_world_cam.t - truth.t).norm(), 0.02) << i;
+    }
+    EXPECT_NE(output("frames.csv").find(",weak,"), std::string::npos);
+}
+
+/** Covered, and then where nothing is known: poses without a common world are not mixed. */
+TEST_F(JobOnARawlog, partsThatNothingJoinsAreKeptApart) {
+    job_.options.slam.recovery.new_part_after = 3;
+    job_.options.run.dense_maps = true;
+    constexpr int opposite = 157, later = 20;  // half a round away
+    auto film = filmRoundTrip(opposite + later, turn_rad);
+    film.erase(film.begin() + frames, film.begin() + opposite);
+    for (int i = 0; i < later; ++i) {
+        film[frames + i]->timestamp = toMrptTime(room_start_s + (frames + 40 + i) * room_period_s);
+    }
+    cover(film, frames - 2, frames, true);
+    write(film);
+    const JobReport report = runSlamJob(job_);
+    EXPECT_EQ(report.tracked, static_cast<std::size_t>(frames - 2 + later - 2));
+    EXPECT_EQ(report.lost, 4u);
+    EXPECT_EQ(report.apart, static_cast<std::size_t>(later - 2));
+    EXPECT_EQ(linesOf(output("trajectory.txt")), 1u + frames - 2);
+    EXPECT_EQ(linesOf(output("keyframes.txt")), 1 + report.keyframes);
+    const auto summary = nlohmann::json::parse(output("summary.json"));
+    EXPECT_EQ(summary["apart"], later - 2);
+    ASSERT_FALSE(summary["apart_keyframes"].empty());
+    EXPECT_EQ(readRunFolder(job_.out_folder, "").apart, report.apart_keyframes);
 }
 
 TEST_F(JobOnARawlog, laterRunIsLocalisedInTheMap) {

@@ -277,5 +277,24 @@ TEST_F(RunFolder, whatIsMissingOrBrokenIsNamed) {
     EXPECT_THAT(problemOf([&] { readRunFolder(path("none"), ""); }), testing::HasSubstr("none"));
 }
 
+TEST(MapInputsOfParts, keyframesApartAreLeftOutAndTheRestCountedAnew) {
+    MapInputs inputs;
+    for (int k = 0; k < 7; ++k) inputs.keyframes.push_back({1.0 * k, SE3()});
+    inputs.keyframes_before_loops = inputs.keyframes;
+    inputs.loops = {{0, 6, 50}, {1, 3, 60}, {2, 5, 70}};
+    inputs.earlier = {{"a", 2}, {"b", 3}};
+    inputs.apart = {1, 4};
+    const MapInputs left = withoutApart(inputs);
+    ASSERT_EQ(left.keyframes.size(), 5u);
+    EXPECT_EQ(left.keyframes[1].stamp_s, 2);
+    EXPECT_EQ(left.keyframes_before_loops[3].stamp_s, 5);
+    ASSERT_EQ(left.loops.size(), 2u);
+    EXPECT_EQ(left.loops[0].to, 4);
+    EXPECT_EQ(left.loops[1].from, 1);
+    EXPECT_EQ(left.loops[1].to, 3);
+    EXPECT_EQ(left.earlier[0].keyframes, 1u);
+    EXPECT_EQ(left.earlier[1].keyframes, 2u);
+}
+
 }  // namespace
 }  // namespace rgbd_graphslam

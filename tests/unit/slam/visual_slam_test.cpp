@@ -110,6 +110,63 @@ TEST(VisualSlam, comesBackAfterTheCameraWasCovered) {
     EXPECT_LT(run.largestError(), 0.01);
 }
 
+/** Part of the circle, covered, then another part that shows nothing of the first. */
+std::vector<std::optional<SE3>> kidnapped(double until_turns) {
+    auto poses = circle(0.15, 50);
+    poses.resize(60);
+    for (double turns = 0.5; turns < until_turns; turns += 0.003) {
+        poses.emplace_back(onCircle(2 * pi * turns));
+    }
+    return poses;
+}
+
+TEST(VisualSlam, beginsANewPartWhereNothingIsKnown) {
+    const SlamRun run = runOn(kidnapped(0.7));
+    const int patience = SlamOptions().recovery.new_part_after;
+    for (int i = 50; i < 60 + patience - 1; ++i) {
+        EXPECT_EQ(run.frames[i].origin, FrameOrigin::Lost) << i;
+    }
+    EXPECT_EQ(run.frames[0].part, 0);
+    for (std::size_t i = 60 + patience - 1; i < run.frames.size(); ++i) {
+        EXPECT_EQ(run.frames[i].origin, FrameOrigin::Tracked) << i;
+        EXPECT_NE(run.frames[i].part, 0) << i;
+    }
+}
+
+TEST(VisualSlam, joinsPartsByALoop) {
+    const SlamRun run = runOn(kidnapped(1.1));
+    EXPECT_GE(run.loops, 1);
+    for (std::size_t i = 0; i < run.frames.size(); ++i) {
+        if (run.frames[i].origin == FrameOrigin::Lost) continue;
+        EXPECT_EQ(run.frames[i].part, 0) << i;
+    }
+    EXPECT_LT(run.largestError(), 0.02);
+    EXPECT_LT(lost(run), 40);
+}
+
+TEST(VisualSlam, odometryTiesFramesWhileTheCameraIsCovered) {
+    SyntheticWorld world(24000);
+    const Camera camera;
+    VisualSlam slam(SlamOptions{}, camera);
+    for (int i = 0; i < 90; ++i) {
+        const SE3 truth = onCircle(0.02 * i);
+        Frame frame;
+        frame.grid = KeypointGrid({}, camera.width, camera.height);
+        const bool covered = i >= 30 && i < 70;
+        if (!covered) frame = world.view(truth, 0, camera);
+        frame.stamp_s = 0.033 * (i + 1);
+        frame.reckoning.T_odometry_cam = truth;
+        const TrackedFrame tracked = slam.track(std::move(frame));
+        // In what was not seen before, the map goes on after some frames.
+        const bool begun_anew = i < 30 || i > 80;
+        if (covered || begun_anew) {
+            EXPECT_EQ(tracked.origin, covered ? FrameOrigin::Weak : FrameOrigin::Tracked) << i;
+        }
+        EXPECT_EQ(tracked.part, 0);
+        EXPECT_LT((tracked.T_world_cam.t - (onCircle(0).inverse() * truth).t).norm(), 0.02) << i;
+    }
+}
+
 /** A map of part of the circle, and the world it was made in. */
 struct MappedWorld {
     SyntheticWorld world{24000};

@@ -1,9 +1,12 @@
 /** What tracking keeps of an image. */
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
+#include "rgbd_graphslam/features/dense_view.h"
 #include "rgbd_graphslam/features/descriptor.h"
+#include "rgbd_graphslam/geometry/se3.h"
 
 namespace rgbd_graphslam {
 
@@ -46,12 +49,21 @@ class KeypointGrid {
     std::vector<int> indices_;
 };
 
+/** What other sensors say about the way here, each in a frame of its own that drifts. */
+struct DeadReckoning {
+    std::optional<SE3> T_odometry_cam;
+    std::optional<Eigen::Matrix3d> R_gyroscope_cam;
+};
+
 /** Features of one image; position i of every list is keypoint i. */
 struct Frame {
     double stamp_s = 0;
     std::vector<Keypoint> keypoints;
     std::vector<Descriptor> descriptors;
     KeypointGrid grid;
+    /** The image as a whole; keyframes do without. */
+    DenseView view;
+    DeadReckoning reckoning;
 };
 
 }  // namespace rgbd_graphslam

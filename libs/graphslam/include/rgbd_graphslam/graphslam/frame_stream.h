@@ -21,6 +21,8 @@ struct StreamedFrame {
     std::size_t index = 0;
     mrpt::obs::CObservation3DRangeScan::Ptr observation;
     Frame prepared;
+    /** Goes into the prepared frame. */
+    DeadReckoning reckoning;
 };
 
 /** Gives the RGB-D frames of a rawlog in file order, whatever the number of threads. With one

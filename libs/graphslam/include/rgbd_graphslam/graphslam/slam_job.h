@@ -24,11 +24,15 @@ struct SlamJob {
 
 /** What came of a job. */
 struct JobReport {
-    std::size_t frames = 0, tracked = 0, recovered = 0, lost = 0;
+    std::size_t frames = 0, tracked = 0, recovered = 0, weak = 0, lost = 0;
+    /** With a pose, but in a part of the map whose place is unknown; they count above, too. */
+    std::size_t apart = 0;
     /** Frames left out because their stamp was not later than the one before. */
     std::size_t out_of_order = 0;
     std::size_t keyframes = 0, culled_keyframes = 0, landmarks = 0;
     std::vector<PoseEdge> loop_edges, covisibility_edges;
+    /** In such parts. */
+    std::vector<int> apart_keyframes;
     /** Of a map that was extended. */
     std::vector<EarlierSession> earlier;
     double path_m = 0;

@@ -30,6 +30,8 @@ struct MapInputs {
     Trajectory keyframes_before_loops;
     /** Where the first keyframes come from; the rest is of `rawlog`. */
     std::vector<EarlierSession> earlier;
+    /** Keyframes, by rising index, whose place relative to the others is unknown. */
+    std::vector<int> apart;
 };
 
 /** T_up_world: z up, floor at z = 0, first camera above the origin and looking along +x. Up is
@@ -38,6 +40,9 @@ struct MapInputs {
  * with a warning; see MapOptions::upright. \throws Error when the rawlog cannot be read or holds
  * none of the keyframes */
 SE3 uprightFromWorld(const MapInputs& inputs, const MapOptions& options);
+
+/** The inputs without the keyframes that are apart, the others counted anew. */
+MapInputs withoutApart(const MapInputs& inputs);
 
 /** All poses of the inputs in the frame a of T_a_world. */
 MapInputs transformed(const SE3& T_a_world, MapInputs inputs);

@@ -8,7 +8,7 @@
 
 namespace rgbd_graphslam {
 
-enum class FrameState { Tracked, Recovered, Lost };
+enum class FrameState { Tracked, Recovered, Weak, Lost };
 
 /** A line of frames.csv. */
 struct FrameRecord {

@@ -41,6 +41,8 @@ class LoopCloser {
     struct Drift {
         double m = 0, rad = 0;
     };
+    /** Between parts of the map. */
+    static constexpr Drift anything{1e6, 1e6};
     struct Loop {
         PoseEdge edge;
         /** What it asked of the map when it was found. */
@@ -56,6 +58,7 @@ class LoopCloser {
     Drift asked(const PoseEdge& loop) const;
     bool mightSee(int keyframe, int candidate) const;
     std::vector<Descriptor> placeDescriptors(int keyframe) const;
+    int firstTooNear(int keyframe) const;
     std::vector<int> candidatesFor(int keyframe) const;
     std::optional<LocatedFrame> align(const Frame& frame, int candidate) const;
     std::optional<Loop> verify(int keyframe, int candidate);

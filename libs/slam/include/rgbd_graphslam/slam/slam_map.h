@@ -1,5 +1,6 @@
 /** Keyframes, landmarks and who sees what. */
 #pragma once
+#include <cstdint>
 #include <utility>
 #include <vector>
 
@@ -31,6 +32,16 @@ struct Landmark {
     bool alive = true;
 };
 
+/** How a keyframe is tied to the one before it. */
+enum class Link : std::uint8_t {
+    /** By landmarks that both see. */
+    Tracked,
+    /** By a weak measurement of motion. */
+    Weak,
+    /** Not at all: the camera was lost, or the recording is another. */
+    None,
+};
+
 struct Keyframe {
     int id = 0;
     Frame frame;
@@ -43,8 +54,8 @@ struct Keyframe {
     SE3 T_cam_parent;
     /** Keyframes of one part of the map have known poses to each other. */
     int part = 0;
-    /** Whether the motion from the keyframe before, id - 1, was measured. */
-    bool follows = true;
+    /** To the keyframe before, id - 1. */
+    Link link = Link::Tracked;
 };
 
 /** Number of landmarks that two keyframes share. */
@@ -62,8 +73,11 @@ class SlamMap {
     /** Takes up a map that was kept. \param landmarks living ones, consistent with the keyframes */
     void restore(std::vector<Keyframe> keyframes, std::vector<Landmark> landmarks);
 
-    /** \param part of the map; \param follows the keyframe before by a measured motion */
-    int addKeyframe(Frame frame, const SE3& T_cam_world, int part = 0, bool follows = true);
+    /** The frame's small image is dropped. \param part of the map that it belongs to */
+    int addKeyframe(Frame frame, const SE3& T_cam_world, int part = 0, Link link = Link::Tracked);
+    /** Moves a part as a whole and makes it one with another.
+     *  \param T_new_old maps its world coordinates to where they belong */
+    void joinPart(int part, int into, const SE3& T_new_old);
     int addLandmark(const Eigen::Vector3d& position, int keyframe, int keypoint);
     /** The keypoint must be free and the landmark not yet seen by the keyframe. */
     void addObservation(int landmark, int keyframe, int keypoint);

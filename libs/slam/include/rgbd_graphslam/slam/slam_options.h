@@ -77,6 +77,17 @@ struct LoopOptions : Options {
     void describe(OptionVisitor& v) override;
 };
 
+struct RecoveryOptions : Options {
+    bool weak_motion = true;
+    int weak_keyframe_after = 5;
+    int new_part_after = 20;
+    int fewest_keypoints = 100;
+
+    const char* section() const override { return "RecoveryOptions"; }
+    const char* about() const override { return "What to do where the map is not recognised"; }
+    void describe(OptionVisitor& v) override;
+};
+
 /** Everything VisualSlam can be told. */
 struct SlamOptions {
     FeatureOptions features;
@@ -85,11 +96,12 @@ struct SlamOptions {
     KeyframeOptions keyframes;
     MapperOptions mapper;
     LoopOptions loops;
+    RecoveryOptions recovery;
     PoseGraphOptions pose_graph;
 
     /** For IniFile::load and toIniText. */
     std::vector<Options*> all() {
-        return {&features, &sensor, &tracker, &keyframes, &mapper, &loops, &pose_graph};
+        return {&features, &sensor, &tracker, &keyframes, &mapper, &loops, &recovery, &pose_graph};
     }
 };
 

@@ -27,6 +27,12 @@ class Tracker {
     /** \return nothing when fewer than `min_inliers` landmarks agree with any pose */
     std::optional<LocatedFrame> track(const Frame& frame);
 
+    /** Pose by the points of the last frame alone, for where the map is not seen.
+     *  \param predicted T_cam_world
+     *  \return landmarks as far as the last frame had them; nothing when fewer than `min_inliers`
+     *          points agree */
+    std::optional<LocatedFrame> followLast(const Frame& frame, const SE3& predicted) const;
+
     /** Searches the landmarks around a pose and refines it; for a frame placed by other means.
      *  \param landmarks known already, one a keypoint */
     std::optional<LocatedFrame> trackLocalMap(const Frame& frame, const SE3& T_cam_world,

@@ -18,9 +18,18 @@
 namespace rgbd_graphslam {
 
 /** How a frame's pose was obtained. */
-enum class FrameOrigin { Tracked, Recovered, Lost };
+enum class FrameOrigin {
+    /** By landmarks, from the frame before. */
+    Tracked,
+    /** By landmarks, found anywhere in the map after the way was lost. */
+    Recovered,
+    /** By the motion since the last frame only: its points, whole images, odometry or gyroscope. */
+    Weak,
+    /** Not at all; the pose is the last one known. */
+    Lost,
+};
 
-/** "tracked", "recovered" or "lost". */
+/** "tracked", "recovered", "weak" or "lost". */
 const char* toString(FrameOrigin origin);
 
 /** The answer to one frame. */
@@ -33,6 +42,8 @@ struct TrackedFrame {
     /** Keyframe this frame's pose is stored relative to. */
     int reference_keyframe = 0;
     SE3 T_reference_cam;
+    /** Of the map, see KeyframeView::part. */
+    int part = 0;
     /** Set when the frame became a keyframe: its id, which counts from 0 without gaps. */
     std::optional<int> keyframe;
 };
@@ -52,6 +63,9 @@ struct KeyframeView {
     SE3 T_world_cam;
     /** Dropped from the map because others see the same; its pose stays a node of the graph. */
     bool culled = false;
+    /** Where the camera was lost and met nothing known, a part begins whose place relative to the
+     *  others is unknown until a loop joins them. */
+    int part = 0;
 };
 
 struct LandmarkView {

@@ -1,0 +1,29 @@
+/** An image small enough to be aligned as a whole. */
+#pragma once
+#include <vector>
+
+#include "rgbd_graphslam/geometry/camera.h"
+
+namespace rgbd_graphslam {
+
+/** Grey and depth at some 80 columns, undistorted; row by row. */
+struct DenseView {
+    /** Of the small image, without distortion. */
+    Camera camera{0, 0, 1, 1, 0, 0, {}};
+    std::vector<float> grey;     // 0 to 255
+    std::vector<float> depth_m;  // along the optical axis; 0 = none
+
+    bool empty() const { return grey.empty(); }
+    /** Share of the pixels that have depth. */
+    double depthShare() const;
+    /** Standard deviation of the grey values. */
+    double contrast() const;
+};
+
+/** The pinhole of an image of which each pixel stands for `block_px` x `block_px` ones. */
+Camera shrunk(const Camera& camera, int block_px);
+
+/** At half the size; depth is that of the nearest surface among the four. */
+DenseView halved(const DenseView& view);
+
+}  // namespace rgbd_graphslam

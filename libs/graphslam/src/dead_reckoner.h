@@ -1,0 +1,36 @@
+/** Where wheels and gyroscope say the camera is. */
+#pragma once
+#include <mrpt/obs/CObservation.h>
+
+#include <optional>
+
+#include "rgbd_graphslam/features/frame.h"
+
+namespace rgbd_graphslam {
+
+/** Takes the entries of a rawlog in their order and tells the dead-reckoned pose at each frame.
+ * Both poses are in a frame of their own and drift. */
+class DeadReckoner {
+  public:
+    /** Entries of other classes are passed over. */
+    void note(const mrpt::obs::CObservation& observation);
+
+    /** \param T_base_cam of the camera on the robot; \param stamp_s not before the last entry's */
+    DeadReckoning at(double stamp_s, const SE3& T_base_cam) const;
+
+  private:
+    struct Wheels {
+        double stamp_s = 0;
+        SE3 T_odometry_base;
+    };
+    std::optional<Wheels> wheels_, wheels_before_;
+
+    struct Gyroscope {
+        double stamp_s = 0;
+        Eigen::Matrix3d R_start_base = Eigen::Matrix3d::Identity();
+        Eigen::Vector3d rate_rad_s = Eigen::Vector3d::Zero();  // in the base's axes
+    };
+    std::optional<Gyroscope> gyroscope_;
+};
+
+}  // namespace rgbd_graphslam

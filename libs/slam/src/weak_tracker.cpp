@@ -1,0 +1,92 @@
+#include "rgbd_graphslam/slam/weak_tracker.h"
+
+#include "rgbd_graphslam/slam/dense_alignment.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+/** An image that shares less with the anchor becomes the next one. */
+constexpr double anchor_overlap = 0.7;
+/** Longest that turning alone is followed; walking on is not seen by a gyroscope. */
+constexpr double longest_gyroscope_s = 0.3;
+/** Longer ago, the last motion says nothing about the next. */
+constexpr double longest_inertia_s = 0.2;
+/** Longest that images are compared without any sensor saying that the camera is still there. */
+constexpr double longest_blind_s = 1.0;
+constexpr double least_depth_share = 0.25;
+
+}  // namespace
+
+void WeakTracker::restart(const Frame& frame, const SE3& T_last_cam) {
+    anchor_ = frame.view;
+    T_anchor_last_ = SE3();
+    accept(frame, T_last_cam);
+    last_fixed_s_ = frame.stamp_s;
+}
+
+void WeakTracker::accept(const Frame& frame, const SE3& T_last_cam) {
+    motion_ = {orthonormalised(T_last_cam.R), T_last_cam.t};
+    last_reckoning_ = frame.reckoning;
+    last_stamp_s_ = frame.stamp_s;
+}
+
+std::optional<SE3> WeakTracker::follow(const Frame& frame) {
+    const auto predicted = predictedMotion(frame);
+    std::optional<SE3> T_last_cam;
+    if (predicted || frame.stamp_s - last_stamp_s_ < longest_blind_s) {
+        T_last_cam = alignWithAnchor(frame, guess(frame));
+        if (!T_last_cam) T_last_cam = alignWithAnchor(frame, SE3());
+    }
+    if (T_last_cam) {
+        last_fixed_s_ = frame.stamp_s;
+    } else if (predicted) {
+        T_last_cam = predicted;
+        T_anchor_last_ = T_anchor_last_ * *predicted;
+        T_anchor_last_.R = orthonormalised(T_anchor_last_.R);
+        const bool seen = frame.view.depthShare() > least_depth_share;
+        if (frame.reckoning.T_odometry_cam) last_fixed_s_ = frame.stamp_s;
+        if (seen) {
+            anchor_ = frame.view;
+            T_anchor_last_ = SE3();
+        }
+    }
+    if (T_last_cam) accept(frame, *T_last_cam);
+    return T_last_cam;
+}
+
+SE3 WeakTracker::guess(const Frame& frame) const {
+    const bool moving = frame.stamp_s - last_stamp_s_ < longest_inertia_s;
+    return predictedMotion(frame).value_or(moving ? motion_ : SE3());
+}
+
+std::optional<SE3> WeakTracker::alignWithAnchor(const Frame& frame, const SE3& T_last_cam_guess) {
+    if (anchor_.empty() || frame.view.empty()) return std::nullopt;
+    const auto aligned = alignDensely(anchor_, frame.view, T_anchor_last_ * T_last_cam_guess);
+    if (!aligned) return std::nullopt;
+    const SE3 T_last_cam = T_anchor_last_.inverse() * aligned->T_reference_view;
+    T_anchor_last_ = {orthonormalised(aligned->T_reference_view.R), aligned->T_reference_view.t};
+    if (aligned->overlap < anchor_overlap) {
+        anchor_ = frame.view;
+        T_anchor_last_ = SE3();
+    }
+    return T_last_cam;
+}
+
+/** By other sensors, the best of them. */
+std::optional<SE3> WeakTracker::predictedMotion(const Frame& frame) const {
+    const DeadReckoning &last = last_reckoning_, &now = frame.reckoning;
+    if (last.T_odometry_cam && now.T_odometry_cam) {
+        return last.T_odometry_cam->inverse() * *now.T_odometry_cam;
+    }
+    if (!gyroscopeServes(frame)) return std::nullopt;
+    const bool moving = frame.stamp_s - last_stamp_s_ < longest_inertia_s;
+    const Eigen::Vector3d travelled = moving ? motion_.t : Eigen::Vector3d::Zero();
+    return SE3(last.R_gyroscope_cam->transpose() * *now.R_gyroscope_cam, travelled);
+}
+
+bool WeakTracker::gyroscopeServes(const Frame& frame) const {
+    return last_reckoning_.R_gyroscope_cam && frame.reckoning.R_gyroscope_cam &&
+           frame.stamp_s - last_fixed_s_ < longest_gyroscope_s;
+}
+
+}  // namespace rgbd_graphslam
