@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
@@ -29,6 +30,20 @@ int endOfParsing(const CLI::App& app, const CLI::ParseError& end) {
 }
 
 }  // namespace
+
+CLI::Validator positive() {
+    const auto problem = [](const std::string& text) -> std::string {
+        return std::atof(text.c_str()) > 0 ? "" : "'" + text + "' is not above 0";
+    };
+    return CLI::Validator(problem, "");
+}
+
+CLI::Validator notNegative() {
+    const auto problem = [](const std::string& text) -> std::string {
+        return std::atof(text.c_str()) >= 0 ? "" : "'" + text + "' is below 0";
+    };
+    return CLI::Validator(problem, "");
+}
 
 void declareCommonOptions(CLI::App& app) {
     app.add_flag_callback(

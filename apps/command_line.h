@@ -10,6 +10,33 @@ namespace rgbd_graphslam {
  *  after all options and subcommands are declared. */
 void declareCommonOptions(CLI::App& app);
 
+/** Checks whose complaints a person can read: CLI11's own name the largest double there is, and let
+ *  -3 pass for an unsigned number. */
+CLI::Validator positive();
+CLI::Validator notNegative();
+
+/** A number that shows its default. \param check positive() or notNegative(), or none */
+template <class Number>
+CLI::Option* declareNumber(CLI::App& app, const std::string& option, Number& value,
+                           const std::string& help, const CLI::Validator& check = {}) {
+    return app.add_option(option, value, help)->check(check)->capture_default_str();
+}
+
+/** An option whose value is one of a few names; the first is the default. */
+template <class Value>
+void declareChoice(CLI::App& app, const std::string& option, Value& value,
+                   const std::vector<std::pair<std::string, Value>>& choices,
+                   const std::string& help) {
+    std::vector<std::string> names;
+    for (const auto& choice : choices) names.push_back(choice.first);
+    const std::map<std::string, Value> value_of(choices.begin(), choices.end());
+    app.add_option_function<std::string>(
+           option, [&value, value_of](const std::string& name) { value = value_of.at(name); }, help)
+        ->check(CLI::IsMember(names))
+        ->type_name("NAME")
+        ->default_str(names.front());
+}
+
 /** Parses the command line and runs the program's body (a program of subcommands has its bodies in
  *  their callbacks and none here). What is wrong with the usage is one line on stderr, as any other
  *  error is.

@@ -1,6 +1,5 @@
 /** rgbd-eval: how good trajectories and maps are. */
 #include <cstdio>
-#include <cstdlib>
 
 #include "command_line.h"
 #include "rgbd_graphslam/evaluation/commands.h"
@@ -13,37 +12,6 @@ void print(const std::string& text) {
     std::fputs(text.c_str(), stdout);
 }
 
-/** An option whose value is one of a few names; the first is the default. */
-template <class Value>
-void declareChoice(CLI::App& command, const std::string& option, Value& value,
-                   const std::vector<std::pair<std::string, Value>>& choices,
-                   const std::string& help) {
-    std::vector<std::string> names;
-    for (const auto& choice : choices) names.push_back(choice.first);
-    const std::map<std::string, Value> value_of(choices.begin(), choices.end());
-    command
-        .add_option_function<std::string>(
-            option, [&value, value_of](const std::string& name) { value = value_of.at(name); },
-            help)
-        ->check(CLI::IsMember(names))
-        ->type_name("NAME")
-        ->default_str(names.front());
-}
-
-/** CLI11's own checks name the largest double there is, and let -3 pass for an unsigned number. */
-CLI::Validator positive() {
-    const auto problem = [](const std::string& text) -> std::string {
-        return std::atof(text.c_str()) > 0 ? "" : "'" + text + "' is not above 0";
-    };
-    return CLI::Validator(problem, "");
-}
-CLI::Validator notNegative() {
-    const auto problem = [](const std::string& text) -> std::string {
-        return std::atof(text.c_str()) >= 0 ? "" : "'" + text + "' is below 0";
-    };
-    return CLI::Validator(problem, "");
-}
-
 void declareFormat(CLI::App& command, ReportFormat& format) {
     declareChoice(command, "--format", format,
                   {{"text", ReportFormat::Text},
@@ -53,7 +21,7 @@ void declareFormat(CLI::App& command, ReportFormat& format) {
                   "Of the table");
 }
 
-void declareTrajectories(CLI::App& command, TrajectoryRequest& request) {
+void declareTrajectories(CLI::App& command, TrajectoryRequest& request, EstimateOptions& options) {
     command
         .add_option("EST... TRUTH", request.files,
                     "Estimates, then the truth: TUM text files; the truth may be a .rawlog")
@@ -65,22 +33,17 @@ void declareTrajectories(CLI::App& command, TrajectoryRequest& request) {
                        "Picture of the errors over time, .png or .svg");
     command.add_option("--plot-distribution", request.distribution_plot,
                        "Picture of the errors' distribution, .png or .svg");
+    declareNumber(command, "--offset", options.offset_s, "Added to the estimate's stamps, s");
+    declareNumber(command, "--scale", options.scale, "Factor on the estimate's positions",
+                  positive());
 }
 
 void addAte(CLI::App& app, AteRequest& request) {
     auto& command = *app.add_subcommand("ate", "Absolute trajectory error");
-    declareTrajectories(command, request);
+    declareTrajectories(command, request, request.options);
     auto& options = request.options;
-    command
-        .add_option("--max-difference", options.max_difference_s,
-                    "Stamps further apart are no pair, s")
-        ->check(positive())
-        ->capture_default_str();
-    command.add_option("--offset", options.offset_s, "Added to the estimate's stamps, s")
-        ->capture_default_str();
-    command.add_option("--scale", options.scale, "Factor on the estimate's positions")
-        ->check(positive())
-        ->capture_default_str();
+    declareNumber(command, "--max-difference", options.max_difference_s,
+                  "Stamps further apart are no pair, s", positive());
     command.add_flag("--fit-scale", options.fit_scale, "Align with the scale that fits best")
         ->excludes("--scale");
     command.add_option("--plot", request.plot,
@@ -93,13 +56,12 @@ void addAte(CLI::App& app, AteRequest& request) {
 
 void addRpe(CLI::App& app, RpeRequest& request) {
     auto& command = *app.add_subcommand("rpe", "Relative pose error");
-    declareTrajectories(command, request);
+    declareTrajectories(command, request, request.options);
     auto& options = request.options;
     command.add_flag("--fixed-delta", options.fixed_delta,
                      "Pairs of poses --delta apart; without it all pairs");
-    command.add_option("--delta", options.delta, "Distance of the two poses of a pair")
-        ->check(positive())
-        ->capture_default_str();
+    declareNumber(command, "--delta", options.delta, "Distance of the two poses of a pair",
+                  positive());
     declareChoice(command, "--delta-unit", options.unit,
                   {{"s", DeltaUnit::Seconds},
                    {"m", DeltaUnit::Metres},
@@ -107,18 +69,9 @@ void addRpe(CLI::App& app, RpeRequest& request) {
                    {"deg", DeltaUnit::Degrees},
                    {"f", DeltaUnit::Frames}},
                   "Of --delta; f: frames");
-    command
-        .add_option("--max-pairs", options.max_pairs, "Draw so many when there are more; 0: all")
-        ->check(notNegative())
-        ->capture_default_str();
-    command.add_option("--seed", options.seed, "Of the drawing")
-        ->check(notNegative())
-        ->capture_default_str();
-    command.add_option("--offset", options.offset_s, "Added to the estimate's stamps, s")
-        ->capture_default_str();
-    command.add_option("--scale", options.scale, "Factor on the estimate's positions")
-        ->check(positive())
-        ->capture_default_str();
+    declareNumber(command, "--max-pairs", options.max_pairs,
+                  "Draw so many when there are more; 0: all", notNegative());
+    declareNumber(command, "--seed", options.seed, "Of the drawing", notNegative());
     command.final_callback([&request] { print(runRpe(request)); });
 }
 
@@ -127,13 +80,9 @@ void addAssociate(CLI::App& app, AssociateRequest& request) {
     command.add_option("FILE1", request.first, "List, e.g. rgb.txt")->required();
     command.add_option("FILE2", request.second, "List, e.g. depth.txt")->required();
     auto& options = request.options;
-    command
-        .add_option("--max-difference", options.max_difference_s,
-                    "Stamps further apart are no pair, s")
-        ->check(positive())
-        ->capture_default_str();
-    command.add_option("--offset", options.offset_s, "Added to the second list's stamps, s")
-        ->capture_default_str();
+    declareNumber(command, "--max-difference", options.max_difference_s,
+                  "Stamps further apart are no pair, s", positive());
+    declareNumber(command, "--offset", options.offset_s, "Added to the second list's stamps, s");
     command.add_flag("--first-only", options.first_only, "Print lines of the first list only");
     command.final_callback([&request] { print(runAssociate(request)); });
 }
@@ -168,36 +117,24 @@ void addPointCloud(CLI::App& app, PointCloudRequest& request, std::vector<std::s
         .add_option("--depth-units", request.depth_units,
                     "Depth units a metre; default: the camera's")
         ->check(positive());
-    command
-        .add_option("--max-difference", request.max_difference_s,
-                    "Stamps further apart are no pair, s")
-        ->check(positive())
-        ->capture_default_str();
-    command.add_option("--nth", request.every_image, "Take every n-th image")
-        ->check(positive())
-        ->capture_default_str();
+    declareNumber(command, "--max-difference", request.max_difference_s,
+                  "Stamps further apart are no pair, s", positive());
+    declareNumber(command, "--nth", request.every_image, "Take every n-th image", positive());
     auto& options = request.options;
-    command
-        .add_option("--downsample", options.every_pixel,
-                    "Take every n-th pixel of a row and column")
-        ->check(positive())
-        ->capture_default_str();
-    command
-        .add_option("--max-depth", options.max_depth_m, "Leave out what is farther, m; 0: nothing")
-        ->check(notNegative())
-        ->capture_default_str();
-    command.add_option("--voxel", options.voxel_m, "Keep one point a cube of this side, m; 0: all")
-        ->check(notNegative())
-        ->capture_default_str();
+    declareNumber(command, "--downsample", options.every_pixel,
+                  "Take every n-th pixel of a row and column", positive());
+    declareNumber(command, "--max-depth", options.max_depth_m,
+                  "Leave out what is farther, m; 0: nothing", notNegative());
+    declareNumber(command, "--voxel", options.voxel_m,
+                  "Keep one point a cube of this side, m; 0: all", notNegative());
     command.final_callback([&] {
         takeFiles(files, request);
         print(runPointCloud(request));
     });
 }
 
-void addMap(CLI::App& app, MapRequest& request) {
-    auto& command = *app.add_subcommand("map", "Accuracy and completeness of a map of points");
-    command.add_option("MAP.ply", request.map, "Points of the map")->required();
+void declareSurface(CLI::App& command, const std::string& map, SurfaceRequest& request) {
+    command.add_option(map, request.map, "The map")->required();
     command.add_option("TRUE_SURFACE.ply", request.surface, "Triangles, or points close together")
         ->required();
     auto* estimate =
@@ -206,33 +143,24 @@ void addMap(CLI::App& app, MapRequest& request) {
     command.add_option("--truth", request.truth, "True trajectory, in the surface's frame")
         ->needs(estimate);
     estimate->needs("--truth");
-    auto& options = request.options;
-    command
-        .add_option("--complete-within", options.completeness_distance_m,
-                    "A place of the surface with a point of the map nearer is covered, m")
-        ->check(positive())
-        ->capture_default_str();
     declareFormat(command, request.format);
+}
+
+void addMap(CLI::App& app, MapRequest& request) {
+    auto& command = *app.add_subcommand("map", "Accuracy and completeness of a map of points");
+    declareSurface(command, "MAP.ply", request);
+    auto& options = request.options;
+    declareNumber(command, "--complete-within", options.completeness_distance_m,
+                  "A place of the surface with a point of the map nearer is covered, m",
+                  positive());
     command.final_callback([&request] { print(runMap(request)); });
 }
 
 void addOctree(CLI::App& app, OctreeRequest& request) {
     auto& command = *app.add_subcommand("octree", "Surface and free space of an octree");
-    command.add_option("OCTREE.bt", request.octree, "Octree of the map")->required();
-    command.add_option("TRUE_SURFACE.ply", request.surface, "Triangles, or points close together")
-        ->required();
-    auto* estimate =
-        command.add_option("--estimate", request.estimate,
-                           "Trajectory of the map: aligned with --truth, it moves the map");
-    command.add_option("--truth", request.truth, "True trajectory, in the surface's frame")
-        ->needs(estimate);
-    estimate->needs("--truth");
-    command
-        .add_option("--tolerance", request.tolerance_m,
-                    "An occupied voxel so near to the surface is right, m")
-        ->check(notNegative())
-        ->capture_default_str();
-    declareFormat(command, request.format);
+    declareSurface(command, "OCTREE.bt", request);
+    declareNumber(command, "--tolerance", request.tolerance_m,
+                  "An occupied voxel so near to the surface is right, m", notNegative());
     command.final_callback([&request] { print(runOctreeEvaluation(request)); });
 }
 

@@ -11,9 +11,9 @@
 namespace rgbd_graphslam {
 namespace {
 
-std::vector<std::string> estimatesOf(const TrajectoryRequest& request) {
+Trajectory truthOf(const TrajectoryRequest& request) {
     if (request.files.size() < 2) throw Error("an estimate and a truth are needed");
-    return {request.files.begin(), request.files.end() - 1};
+    return readTrajectory(request.files.back());
 }
 
 PerAxis perAxis(const TrajectoryRequest& request) {
@@ -63,12 +63,27 @@ std::vector<PosedImageFiles> imagesOf(const PointCloudRequest& request) {
                  : posedImages(request.color, request.depth, trajectory, request.max_difference_s);
 }
 
-Similarity alignmentOf(const MapRequest& request) {
-    if (request.estimate.empty()) return request.options.alignment;
-    return naming(request.estimate, [&] {
-        return evaluateAte(readTrajectory(request.estimate), readTrajectory(request.truth))
-            .alignment;
-    });
+/** Evaluates each estimate of a request; errors name its file.
+ *  \param evaluate gives what was found about an estimate under a label */
+template <class Evaluate>
+auto evaluateAll(const TrajectoryRequest& request, Evaluate evaluate) {
+    const std::vector<std::string> files(request.files.begin(), request.files.end() - 1);
+    const auto labels = labelsOf(files);
+    std::vector<decltype(evaluate(std::string(), Trajectory()))> evaluated;
+    for (std::size_t k = 0; k < files.size(); ++k) {
+        const auto estimate = readTrajectory(files[k]);
+        evaluated.push_back(naming(files[k], [&] { return evaluate(labels[k], estimate); }));
+    }
+    return evaluated;
+}
+
+template <class Evaluated>
+std::string tableOf(const std::vector<Evaluated>& evaluated, const TrajectoryRequest& request) {
+    std::vector<Report> reports;
+    for (const auto& each : evaluated) {
+        reports.push_back(reportOf(each.label, each.result, perAxis(request)));
+    }
+    return format(reports, request.format);
 }
 
 }  // namespace
@@ -83,40 +98,26 @@ Trajectory readTrajectory(const std::string& path) {
 }
 
 std::string runAte(const AteRequest& request) {
-    const auto files = estimatesOf(request);
-    const auto labels = labelsOf(files);
-    const auto truth = readTrajectory(request.files.back());
-    std::vector<EvaluatedAte> evaluated;
-    std::vector<Report> reports;
-    for (std::size_t k = 0; k < files.size(); ++k) {
-        const auto estimate = readTrajectory(files[k]);
-        const auto result =
-            naming(files[k], [&] { return evaluateAte(estimate, truth, request.options); });
-        evaluated.push_back({labels[k], estimate, result});
-        reports.push_back(reportOf(labels[k], result, perAxis(request)));
-    }
+    const auto truth = truthOf(request);
+    const auto evaluated =
+        evaluateAll(request, [&](const std::string& label, const Trajectory& estimate) {
+            return EvaluatedAte{label, estimate, evaluateAte(estimate, truth, request.options)};
+        });
     if (!request.plot.empty()) plotTrajectories(truth, evaluated, request.plane, request.plot);
     plotErrors(request, errorPanels(evaluated));
-    return format(reports, request.format);
+    return tableOf(evaluated, request);
 }
 
 std::string runRpe(const RpeRequest& request) {
-    const auto files = estimatesOf(request);
-    const auto labels = labelsOf(files);
-    const auto truth = readTrajectory(request.files.back());
-    std::vector<EvaluatedRpe> evaluated;
-    std::vector<Report> reports;
-    for (std::size_t k = 0; k < files.size(); ++k) {
-        const auto estimate = readTrajectory(files[k]);
-        const auto result =
-            naming(files[k], [&] { return evaluateRpe(estimate, truth, request.options); });
-        evaluated.push_back({labels[k], result});
-        reports.push_back(reportOf(labels[k], result, perAxis(request)));
-    }
+    const auto truth = truthOf(request);
+    const auto evaluated =
+        evaluateAll(request, [&](const std::string& label, const Trajectory& estimate) {
+            return EvaluatedRpe{label, evaluateRpe(estimate, truth, request.options)};
+        });
     const auto style =
         request.options.fixed_delta ? ErrorPanel::Style::Lines : ErrorPanel::Style::Points;
     plotErrors(request, errorPanels(evaluated, style));
-    return format(reports, request.format);
+    return tableOf(evaluated, request);
 }
 
 std::string runAssociate(const AssociateRequest& request) {
@@ -140,6 +141,14 @@ std::string runPointCloud(const PointCloudRequest& request) {
     writePly(request.output, builder.cloud());
     return "images " + std::to_string(used) + "\npoints " +
            std::to_string(builder.cloud().vertices.size()) + "\n";
+}
+
+Similarity alignmentOf(const SurfaceRequest& request) {
+    if (request.estimate.empty()) return {};
+    return naming(request.estimate, [&] {
+        return evaluateAte(readTrajectory(request.estimate), readTrajectory(request.truth))
+            .alignment;
+    });
 }
 
 std::string runMap(const MapRequest& request) {

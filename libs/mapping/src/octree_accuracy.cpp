@@ -79,11 +79,6 @@ double share(std::size_t part, std::size_t whole) {
     return whole ? static_cast<double>(part) / static_cast<double>(whole) : 0;
 }
 
-Similarity alignmentOf(const OctreeRequest& request) {
-    if (request.estimate.empty()) return {};
-    return evaluateAte(readTrajectory(request.estimate), readTrajectory(request.truth)).alignment;
-}
-
 }  // namespace
 
 OctreeAccuracy evaluateOctree(const octomap::OcTree& tree, const PlyModel& surface,
@@ -113,11 +108,11 @@ OctreeAccuracy evaluateOctree(const octomap::OcTree& tree, const PlyModel& surfa
 }
 
 std::string runOctreeEvaluation(const OctreeRequest& request) {
-    const auto tree = loadBinaryOcTree(request.octree);
+    const auto tree = loadBinaryOcTree(request.map);
     const auto accuracy =
         evaluateOctree(*tree, readPly(request.surface), alignmentOf(request), request.tolerance_m);
     const auto percent = [](double value) { return 100 * value; };
-    Report report{std::filesystem::path(request.octree).stem(), {}};
+    Report report{std::filesystem::path(request.map).stem(), {}};
     report.figures = {{"surface_voxels", static_cast<double>(accuracy.surface_voxels), "voxels", 0},
                       {"surface_occupied", percent(accuracy.surface_occupied), "%", 2},
                       {"surface_occupied_within_tolerance",

@@ -6,15 +6,14 @@
 #include <vector>
 
 #include "rgbd_graphslam/evaluation/alignment.h"
+#include "rgbd_graphslam/evaluation/estimate_options.h"
 #include "rgbd_graphslam/evaluation/statistics.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 
 namespace rgbd_graphslam {
 
-struct AteOptions {
+struct AteOptions : EstimateOptions {
     double max_difference_s = 0.02;  // between the stamps of an estimate and its truth, exclusive
-    double offset_s = 0;             // added to the stamps of the estimate
-    double scale = 1;                // factor on the positions of the estimate
     /** Align with the scale that fits best instead of `scale`. */
     bool fit_scale = false;
 };

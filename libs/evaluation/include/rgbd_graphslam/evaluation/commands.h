@@ -54,12 +54,18 @@ struct PointCloudRequest {
 };
 std::string runPointCloud(const PointCloudRequest& request);
 
-struct MapRequest {
+/** Common to what is measured against a true surface. */
+struct SurfaceRequest {
     std::string map, surface;
     /** With both, the map is moved as the estimate is to fit the truth. */
     std::string estimate, truth;
-    MapAccuracyOptions options;
     ReportFormat format = ReportFormat::Text;
+};
+/** From the map's frame to the surface's. \throws Error as readTrajectory and evaluateAte do */
+Similarity alignmentOf(const SurfaceRequest& request);
+
+struct MapRequest : SurfaceRequest {
+    MapAccuracyOptions options;
 };
 std::string runMap(const MapRequest& request);
 

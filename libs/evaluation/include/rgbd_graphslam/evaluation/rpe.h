@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "rgbd_graphslam/evaluation/estimate_options.h"
 #include "rgbd_graphslam/evaluation/statistics.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 
@@ -14,7 +15,7 @@ namespace rgbd_graphslam {
  *  are summed along the path of the estimate. */
 enum class DeltaUnit { Seconds, Metres, Radians, Degrees, Frames };
 
-struct RpeOptions {
+struct RpeOptions : EstimateOptions {
     /** Pairs `delta` apart; otherwise all pairs, in which `delta` has no say. */
     bool fixed_delta = false;
     double delta = 1;
@@ -22,8 +23,6 @@ struct RpeOptions {
     /** As many pairs are drawn when there are more; 0 takes all. */
     std::size_t max_pairs = 10000;
     std::uint64_t seed = 0;  // of the drawing
-    double offset_s = 0;     // added to the stamps of the estimate
-    double scale = 1;        // factor on the positions of the estimate
 };
 
 /** What the estimate's motion from one pose to another leaves of the true motion. */

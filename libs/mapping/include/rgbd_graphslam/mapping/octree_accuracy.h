@@ -3,8 +3,8 @@
 #include <string>
 
 #include "rgbd_graphslam/evaluation/alignment.h"
+#include "rgbd_graphslam/evaluation/commands.h"
 #include "rgbd_graphslam/evaluation/ply.h"
-#include "rgbd_graphslam/evaluation/report.h"
 
 namespace octomap {
 class OcTree;
@@ -28,11 +28,9 @@ struct OctreeAccuracy {
 OctreeAccuracy evaluateOctree(const octomap::OcTree& tree, const PlyModel& surface,
                               const Similarity& truth_from_map, double tolerance_m);
 
-struct OctreeRequest {
-    std::string octree, surface;  // .bt, .ply
-    std::string estimate, truth;  // with both, the map is moved as the estimate is to fit the truth
+/** The map is a .bt. */
+struct OctreeRequest : SurfaceRequest {
     double tolerance_m = 0.02;
-    ReportFormat format = ReportFormat::Text;
 };
 /** \return the table to print \throws Error for what cannot be read */
 std::string runOctreeEvaluation(const OctreeRequest& request);
