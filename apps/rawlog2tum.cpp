@@ -19,7 +19,7 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_option("--from", args.options.from_s, "Leave out what is earlier, s after first frame");
     app.add_option("--to", args.options.to_s, "Leave out what is later, s after first frame");
     app.add_option("--every", args.options.every, "Every n-th frame")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str();
     app.add_option("--threads", args.options.threads, "Threads that encode images")
         ->check(CLI::Range(1, 256))

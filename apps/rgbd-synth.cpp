@@ -60,9 +60,9 @@ int main(int argc, char** argv) {
     app.add_option("out_dir", folder, "new folder for the sequence");
     app.add_flag("--list", list_only, "describe the scenarios");
     app.add_option("--frames", options.frames, "the first N frames (default: the whole scenario)")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     app.add_option("--every", options.every, "film only every Nth of them: a slower camera")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     app.add_option("--seed", options.seed, "of textures, trembling and noise")
         ->capture_default_str();
     app.add_option("--noise", noise, "sensor model")

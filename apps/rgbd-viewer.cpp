@@ -25,7 +25,7 @@ void declare(CLI::App& app, Arguments& args) {
                    "Open the window, write it to this PNG once all is shown, and end");
     app.add_option("--benchmark", args.job.benchmark_s,
                    "Open the window, measure the frame rate for so many seconds, and end")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     auto* snapshot = app.add_option("--snapshot", args.snapshot,
                                     "PNG to write without a window; needs no display");
     const auto add = [&](const char* name, auto& value, const char* help) {
@@ -36,7 +36,7 @@ void declare(CLI::App& app, Arguments& args) {
     add("--azimuth", args.view.azimuth_deg, "Look from this direction, degrees from +x");
     add("--elevation", args.view.elevation_deg, "Look down from this angle, degrees")
         ->check(CLI::Range(-89, 90));
-    add("--zoom", args.view.zoom, "Above 1 is nearer")->check(CLI::PositiveNumber);
+    add("--zoom", args.view.zoom, "Above 1 is nearer")->check(positive());
     app.add_flag("--ceiling", args.with_ceiling, "Leave the ceiling on")->needs(snapshot);
 }
 

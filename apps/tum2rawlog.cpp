@@ -35,7 +35,7 @@ void declare(CLI::App& app, Arguments& args) {
         ->capture_default_str();
     app.add_option("--rate", args.rate_hz,
                    "Frames a second, for layouts that number images instead of stamping them")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str();
     app.add_option(
         "--camera", args.camera,
@@ -43,10 +43,10 @@ void declare(CLI::App& app, Arguments& args) {
         "else the layout's, else guessed from the folder's name");
     app.add_option("--depth-units", args.depth_units,
                    "Depth units a metre; default: the camera file's, else 5000")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     app.add_option("--depth-scale", args.depth_scale,
                    "Factor on depth; default: the camera file's, else 1")
-        ->check(CLI::PositiveNumber);
+        ->check(positive());
     app.add_option(
            "--register", args.depth_camera,
            "Ini file of the camera that took the depth images, when they are not registered "
@@ -56,7 +56,7 @@ void declare(CLI::App& app, Arguments& args) {
         ->excludes("--depth-scale");
     app.add_option("--max-difference", args.import.max_difference_s,
                    "Colour and depth further apart are no pair, s")
-        ->check(CLI::PositiveNumber)
+        ->check(positive())
         ->capture_default_str();
     app.add_option("--threads", args.import.threads, "Threads that decode images")
         ->check(CLI::Range(1, 256))

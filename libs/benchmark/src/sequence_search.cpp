@@ -8,6 +8,7 @@
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/sequence_archive.h"
 #include "rgbd_graphslam/dataset/sequence_layout.h"
+#include "rgbd_graphslam/dataset/unpacked_bag.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;
@@ -18,7 +19,7 @@ enum class Kind { Folder, Archive, Rawlog, None };
 
 Kind kindOf(const fs::path& path) {
     if (layoutOf(path)) return Kind::Folder;
-    if (isSequenceArchive(path)) return Kind::Archive;
+    if (isSequenceArchive(path) || isBag(path)) return Kind::Archive;
     return fs::is_regular_file(path) && path.extension() == ".rawlog" ? Kind::Rawlog : Kind::None;
 }
 

@@ -32,8 +32,12 @@ Fields fieldsOf(const std::string& header) {
     return fields;
 }
 
+/** No recorder makes chunks so large; a damaged size shall not fill the memory. */
+constexpr std::size_t largest_chunk = 1 << 30;
+
 /** Unpacks a bz2 or lz4 stream. \param size of what comes out */
 std::string decompressed(const std::string& bytes, std::size_t size) {
+    if (size > largest_chunk) throw std::out_of_range("a chunk is too large");
     const std::unique_ptr<archive, int (*)(archive*)> in(archive_read_new(), archive_read_free);
     archive_read_support_filter_bzip2(in.get());
     archive_read_support_filter_lz4(in.get());

@@ -33,14 +33,14 @@ bool isDepth(const ros::Image& image) {
 
 /** The message's bytes as an image; rows may be padded. */
 cv::Mat pixelsOf(const ros::Image& image, int type) {
-    const cv::Mat view(static_cast<int>(image.height), static_cast<int>(image.width), type,
-                       const_cast<char*>(image.data.data()), image.step);
-    if (image.is_bigendian || image.step < image.width * view.elemSize() ||
+    const std::size_t row_bytes = std::size_t{image.width} * CV_ELEM_SIZE(type);
+    if (image.is_bigendian || image.width == 0 || image.height == 0 || image.step < row_bytes ||
         image.data.size() < std::size_t{image.step} * image.height) {
         throw Error("image at " + stampText(image.header.stamp_s) + " is not whole",
                     "fetch the bag again");
     }
-    return view;
+    return {static_cast<int>(image.height), static_cast<int>(image.width), type,
+            const_cast<char*>(image.data.data()), image.step};
 }
 
 cv::Mat colorOf(const ros::Image& image) {

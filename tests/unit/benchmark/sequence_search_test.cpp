@@ -28,6 +28,7 @@ class Search : public ::testing::Test {
         folder_.write("all/fr1_desk.tgz", "");
         folder_.write("all/two/b.tgz", "");
         folder_.write("all/c.rawlog", "");
+        folder_.write("all/two/d.bag", "");
         folder_.write("all/notes.txt", "");
         folder_.write("all/out/x/sequence.rawlog", "");
     }
@@ -39,14 +40,14 @@ class Search : public ::testing::Test {
 
 TEST_F(Search, foldersArchivesAndRawlogsAtAnyDepth) {
     const auto found = find({folder_ / "all"});
-    EXPECT_THAT(namesOf(found), ::testing::ElementsAre("c", "fr1_desk", "two_a", "two_b"));
+    EXPECT_THAT(namesOf(found), ::testing::ElementsAre("c", "fr1_desk", "two_a", "two_b", "two_d"));
     EXPECT_EQ(found[1].source, folder_ / "all/fr1_desk") << "the folder goes before its archive";
 }
 
 TEST_F(Search, aRootMayBeASequence) {
     EXPECT_THAT(namesOf(find({folder_ / "all/two/a"})), ::testing::ElementsAre("a"));
     EXPECT_THAT(namesOf(find({folder_ / "all/two/", folder_ / "all/two/b.tgz"})),
-                ::testing::ElementsAre("a", "b"));
+                ::testing::ElementsAre("a", "b", "d"));
 }
 
 TEST_F(Search, nothingAndDoubleNamesAreErrors) {
@@ -63,7 +64,7 @@ TEST_F(Search, sharesPartTheWork) {
         for (const auto& name : namesOf(shareOf(all, parseShare(share)))) together.insert(name);
     }
     EXPECT_THAT(together, ::testing::ElementsAreArray(namesOf(all)));
-    EXPECT_TRUE(shareOf(all, parseShare("5/5")).empty());
+    EXPECT_TRUE(shareOf(all, parseShare("6/6")).empty());
     for (const char* wrong : {"0/3", "4/3", "1", "1/3x", "-1/3", "a/b", ""}) {
         EXPECT_THROW(parseShare(wrong), Error) << wrong;
     }

@@ -168,6 +168,13 @@ TEST_F(Bag, whatLacksIsSaid) {
     EXPECT_THAT(complaint(), HasSubstr("'yuv422' are not understood"));
 }
 
+TEST_F(Bag, anImageThatLacksPixelsIsRefused) {
+    addImage("/c", 1, "bgr8", small_sequence::color(0));
+    lines_.replace(lines_.find(" 32 24 "), 7, " 99 24 ");
+    record();
+    EXPECT_THAT(complaint(), HasSubstr("image at 1.000000 is not whole"));
+}
+
 TEST_F(Bag, damageIsSaidAndNothingLeftBehind) {
     folder_.write("rgbd.bag", "no bag");
     EXPECT_THAT(complaint(), HasSubstr("is no ROS 1 bag of format 2.0"));

@@ -9,7 +9,7 @@ namespace rgbd_graphslam {
 /** A recording and the name it has in a report. */
 struct FoundSequence {
     std::string name;
-    /** A folder in one of the known layouts, an archive of one, or a rawlog. */
+    /** A folder in one of the known layouts, an archive or bag of one, or a rawlog. */
     std::string source;
 };
 
