@@ -158,9 +158,10 @@ std::optional<double> floorHeight(const std::vector<SurfacePatch>& patches,
     };
     int largest = 0;
     for (const auto& entry : histogram) largest = std::max(largest, around(entry.first));
+    // Of filled bins only: the one with the largest sum is among them, so one is always found.
     const auto lowest = std::find_if(histogram.begin(), histogram.end(), [&](const auto& entry) {
-        return around(entry.first) >= least_of_largest * largest &&
-               around(entry.first) >= around(entry.first + 1);
+        const int next = histogram.count(entry.first + 1) ? around(entry.first + 1) : 0;
+        return around(entry.first) >= std::max<double>(least_of_largest * largest, next);
     });
     std::vector<double> heights;
     for (const auto& patch : patches) {

@@ -83,6 +83,15 @@ TEST(Upright, floorGivesUpAndItsHeight) {
     EXPECT_GT(T_up_first.R(0, 2), 0);
 }
 
+/** Few patches a little above most: between them, more seems to lie than at either height. */
+TEST(Upright, floorIsFoundBelowAFewStrayPatches) {
+    std::vector<SurfacePatch> patches(20, {Eigen::Vector3d(1, 1, 0.01), Eigen::Vector3d::UnitZ()});
+    patches.insert(patches.end(), 2, {Eigen::Vector3d(1, 1, 0.05), Eigen::Vector3d::UnitZ()});
+    const auto floor = floorHeight(patches, Eigen::Vector3d::UnitZ());
+    ASSERT_TRUE(floor);
+    EXPECT_NEAR(*floor, 0.01, 1e-9);
+}
+
 TEST(Upright, nothingLevelInSightIsSaid) {
     EXPECT_FALSE(upFromFloor({}, Eigen::Vector3d::UnitZ(), M_PI / 4));
     EXPECT_FALSE(floorHeight({{Eigen::Vector3d(1, 1, 1), Eigen::Vector3d::UnitX()}},
