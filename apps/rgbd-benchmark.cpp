@@ -16,8 +16,8 @@ struct Arguments {
 
 void declare(CLI::App& app, Arguments& args) {
     BenchmarkRequest& request = args.request;
-    app.add_option("DIR...", request.folders,
-                   "Folders that hold sequences, their archives or rawlogs, at any depth")
+    app.add_option("DIR", request.folders,
+                   "Folders that hold sequences, their archives, bags or rawlogs, at any depth")
         ->required();
     app.add_option("-o,--out", request.out_folder,
                    "Folder for results and report.html, report.md; finished sequences in it are "
