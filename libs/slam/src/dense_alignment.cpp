@@ -25,7 +25,7 @@ constexpr double least_depth_share = 0.25, least_overlap = 0.35, least_fitting =
 constexpr double least_smooth = 0.3;
 /** Neighbouring pixels err alike: as many count as one. */
 constexpr double alike_pixels = 50;
-constexpr double largest_sigma = 0.02;  // m, rad
+constexpr double largest_sigma = 0.03;  // m, rad
 constexpr double largest_step_m = 0.6, largest_step_rad = 0.6;
 
 /** The reference with all that does not change while aligning. */
