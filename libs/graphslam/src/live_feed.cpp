@@ -11,7 +11,7 @@ namespace rgbd_graphslam {
 namespace {
 
 using std::chrono::milliseconds;
-constexpr milliseconds frame_interval(100), keyframe_interval(40), map_interval(1000);
+constexpr milliseconds frame_interval(150), keyframe_interval(60), map_interval(1000);
 /** The map is sent so rarely that copying it takes less than this part of the time. */
 constexpr int least_map_pause = 200;
 constexpr std::size_t most_statistics = 20000;

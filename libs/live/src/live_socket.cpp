@@ -3,9 +3,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <sys/eventfd.h>
-#include <sys/resource.h>
 #include <sys/socket.h>
-#include <sys/syscall.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -21,7 +19,6 @@ namespace {
 
 constexpr std::uint32_t magic = 0x314c4752;  // "RGL1"
 constexpr std::size_t largest_message = std::size_t{256} << 20, chunk_bytes = 1 << 16;
-constexpr int lowest_priority = 19;
 
 struct Header {
     std::uint32_t magic, bytes;
@@ -97,7 +94,6 @@ void LiveServer::post(std::function<std::string()> encode) {
 }
 
 void LiveServer::serve() {
-    ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), lowest_priority);
     while (!stop_) {
         const short viewer_events = pending_.empty() ? POLLIN : POLLIN | POLLOUT;
         pollfd events[] = {{wake_.get(), POLLIN, 0},

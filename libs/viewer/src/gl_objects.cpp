@@ -120,10 +120,10 @@ void RenderTarget::resize(const Eigen::Vector2i& size_px) {
     glBindRenderbuffer(GL_RENDERBUFFER, color_);
     glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, size_px.x(), size_px.y());
     glBindRenderbuffer(GL_RENDERBUFFER, depth_);
-    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT24, size_px.x(), size_px.y());
+    glRenderbufferStorage(GL_RENDERBUFFER, GL_DEPTH24_STENCIL8, size_px.x(), size_px.y());
     glBindFramebuffer(GL_FRAMEBUFFER, frame_);
     glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, color_);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_STENCIL_ATTACHMENT, GL_RENDERBUFFER, depth_);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
@@ -132,11 +132,13 @@ void RenderTarget::bind() const {
     glViewport(0, 0, size_px_.x(), size_px_.y());
 }
 
-void RenderTarget::copyToWindow() const {
+void RenderTarget::copyToWindow(const cv::Rect& area) const {
+    const int left = area.x, right = area.x + area.width;
+    const int top = size_px_.y() - area.y, bottom = top - area.height;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glBlitFramebuffer(0, 0, size_px_.x(), size_px_.y(), 0, 0, size_px_.x(), size_px_.y(),
-                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    glBlitFramebuffer(left, bottom, right, top, left, bottom, right, top, GL_COLOR_BUFFER_BIT,
+                      GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 

@@ -59,7 +59,7 @@ class ShaderProgram {
     std::map<std::string, GLint> places_;
 };
 
-/** A picture with depth that is drawn out of sight. */
+/** A picture with depth and stencil that is drawn out of sight. */
 class RenderTarget {
   public:
     RenderTarget();
@@ -70,8 +70,10 @@ class RenderTarget {
     /** Does nothing when the size stays. */
     void resize(const Eigen::Vector2i& size_px);
     void bind() const;
-    /** Copies the colours to the window's back buffer. */
-    void copyToWindow() const;
+    /** Copies the colours to the same place of the window's back buffer.
+     *  \param area in pixels from the top-left corner */
+    void copyToWindow(const cv::Rect& area) const;
+    void copyToWindow() const { copyToWindow(cv::Rect(0, 0, size_px_.x(), size_px_.y())); }
     /** OpenGL depths of the square around a pixel, counted from the top; 1 outside. */
     cv::Mat1f depthsAround(const Eigen::Vector2i& pixel, int radius_px) const;
 

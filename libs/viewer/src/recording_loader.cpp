@@ -12,6 +12,7 @@ namespace rgbd_graphslam {
 namespace {
 
 constexpr int picture_width_px = 320;
+constexpr double margin_s = 0.1;
 
 struct Stopped {};
 
@@ -42,6 +43,9 @@ TrueTrajectory alignedTruth(const Trajectory& estimate, const Trajectory& truth)
     TrueTrajectory result;
     result.rmse_m = ate.translation_m.rmse;
     for (const StampedPose& pose : truth) {
+        const bool meanwhile = pose.stamp_s >= estimate.front().stamp_s - margin_s &&
+                               pose.stamp_s <= estimate.back().stamp_s + margin_s;
+        if (!meanwhile) continue;
         result.poses.push_back({pose.stamp_s, T_estimate_truth * pose.T_world_cam});
     }
     for (const AtePair& pair : ate.pairs) {

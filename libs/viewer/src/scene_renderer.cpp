@@ -10,7 +10,7 @@ namespace rgbd_graphslam {
 namespace {
 
 constexpr float background[] = {236 / 255.f, 239 / 255.f, 243 / 255.f};
-constexpr float most_point_px = 12, widest_spacing_m = 0.02f;
+constexpr float most_point_px = 8, widest_spacing_m = 0.02f;
 constexpr double frame_time_s = 0.04, fewest_points = 30000, most_points = 2e7;
 /** How bright the octree's sides are: -x, +x, -y, +y, -z, +z. */
 constexpr float face_shades[] = {0.75f, 0.85f, 0.7f, 0.8f, 0.55f, 1.f};

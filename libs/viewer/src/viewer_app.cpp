@@ -4,6 +4,7 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
 
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
@@ -45,6 +46,8 @@ nanogui::ref<ViewerWindow> makeWindow(const ViewerSettings& settings, const std:
 void stepBack() {
     constexpr int lowest_priority = 19;
     ::setpriority(PRIO_PROCESS, 0, lowest_priority);
+    // Linux weighs whole sessions against each other first, and this process may have its own.
+    std::ofstream("/proc/self/autogroup") << lowest_priority;
     ::setenv("LP_NUM_THREADS", "1", 0);  // of Mesa's software renderer
 }
 

@@ -63,12 +63,22 @@ void ViewerWindow::follow(const std::string& folder, std::filesystem::file_time_
 }
 
 void ViewerWindow::takeLive() {
-    if (!live_ || !live_->update()) return;
+    if (!live_) return;
+    live_is_new_ |= live_->update();
     if (live_->state() == LiveRun::State::Ended) return endLive();
-    if (live_->lastFrame()) showLive();
+    if (live_is_new_ && live_->lastFrame() && Clock::now() >= next_live_picture_) showLive();
+}
+
+/** Pictures are drawn so rarely that drawing takes little of the time, since the run may need the
+ *  processor; the mouse is not held up by this. \param start of the last picture's drawing */
+void ViewerWindow::restAfterDrawing(Clock::time_point start) {
+    constexpr int rest = 9;
+    const auto now = Clock::now();
+    next_live_picture_ = now + rest * (now - start);
 }
 
 void ViewerWindow::showLive() {
+    live_is_new_ = false;
     const LiveFrame& frame = *live_->lastFrame();
     scene_->showClouds(live_->takeMovedClouds());
     scene_->update(*live_);

@@ -47,7 +47,9 @@ ViewerWindow::ViewerWindow(const ViewerSettings& settings, const std::string& ti
     : nanogui::Screen({settings.window_width, settings.window_height}, title),
       settings_(settings),
       renderer_(std::make_unique<SceneRenderer>()),
-      scene_(std::make_unique<RunScene>(*renderer_)) {
+      scene_(std::make_unique<RunScene>(*renderer_)),
+      panels_(std::make_unique<RenderTarget>()) {
+    styleTheme();
     if (settings_.window_x >= 0)
         glfwSetWindowPos(glfwWindow(), settings_.window_x, settings_.window_y);
     glfwSwapInterval(0);  // pictures are drawn when something changes, not at the screen's rate
@@ -196,33 +198,63 @@ void ViewerWindow::open(RunData run) {
 }
 
 bool ViewerWindow::settled() const {
-    return !live_ && all_read_ && renderer_->complete() && !scene_changed_ && !panels_changed_;
+    return !live_ && all_read_ && renderer_->complete() && !scene_changed_ && !panels_changed_ &&
+           !picture_changed_;
 }
 
 double ViewerWindow::update() {
+    const auto start = Clock::now();
     takeLive();
     takeRecording();
     advanceReplay();
     if (scene_changed_) {
         renderer_->draw(sceneView());
         scene_changed_ = false;
-        panels_changed_ = true;
-    } else if (!renderer_->complete()) {
+        picture_changed_ = true;
+    } else if (!renderer_->complete() && !live_) {
         renderer_->refine();
-        panels_changed_ |= renderer_->complete();
+        picture_changed_ |= renderer_->complete();
     }
-    if (panels_changed_ || mLastInteraction != last_drawn_interaction_) drawAll();
+    panels_changed_ |= mLastInteraction != last_drawn_interaction_ && drag_button_ < 0;
+    if (panels_changed_ || picture_changed_) {
+        drawAll();
+        restAfterDrawing(start);
+    }
+    if (live_) return reading_wait_s;
     if (playing_ || !renderer_->complete()) return busy_wait_s;
-    return all_read_ && !live_ ? idle_wait_s : reading_wait_s;
+    return all_read_ ? idle_wait_s : reading_wait_s;
+}
+
+/** Opaque panels can be copied over the scene; drawing them anew for each picture of a moving scene
+ *  would take as long as the scene. */
+void ViewerWindow::styleTheme() {
+    theme()->mWindowDropShadowSize = 0;
+    theme()->mWindowCornerRadius = 0;
+    theme()->mWindowFillFocused = theme()->mWindowFillUnfocused = nanogui::Color(45, 48, 54, 255);
+}
+
+void ViewerWindow::drawPanels() {
+    panels_->resize(mFBSize);
+    panels_->bind();
+    glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
+    drawWidgets();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    last_drawn_interaction_ = mLastInteraction;
+    panels_changed_ = false;
 }
 
 /** Draws to the back buffer. */
 void ViewerWindow::compose() {
-    last_drawn_interaction_ = mLastInteraction;
-    panels_changed_ = false;
-    glViewport(0, 0, mFBSize.x(), mFBSize.y());
+    if (panels_changed_) drawPanels();
+    picture_changed_ = false;
     renderer_->copyToWindow();
-    drawWidgets();
+    const float scale = pixelRatio();
+    for (const nanogui::Widget* panel : children()) {
+        if (!panel->visible()) continue;
+        const Eigen::Vector2i corner = (scale * panel->position().cast<float>()).cast<int>();
+        const Eigen::Vector2i size = (scale * panel->size().cast<float>()).cast<int>();
+        panels_->copyToWindow(cv::Rect(corner.x(), corner.y(), size.x(), size.y()));
+    }
 }
 
 void ViewerWindow::drawAll() {

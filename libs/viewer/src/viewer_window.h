@@ -64,10 +64,13 @@ class ViewerWindow : public nanogui::Screen {
 
     void drawAll() override;
     void compose();
+    void drawPanels();
+    void styleTheme();
     SceneView sceneView();
     void takeRecording();
     void takeLive();
     void showLive();
+    void restAfterDrawing(Clock::time_point start);
     void showLivePictures(const LiveFrame& frame);
     void showLivePlots();
     void endLive();
@@ -94,10 +97,13 @@ class ViewerWindow : public nanogui::Screen {
     std::vector<Shortcut> shortcuts_;
     std::unique_ptr<SceneRenderer> renderer_;
     std::unique_ptr<RunScene> scene_;
+    std::unique_ptr<RenderTarget> panels_;
     std::unique_ptr<RecordingLoader> loader_;
     bool all_read_ = true;
     std::unique_ptr<LiveRun> live_;  // while a run is followed
     std::string live_folder_;
+    bool live_is_new_ = false;  // something to show has come
+    Clock::time_point next_live_picture_;
 
     OrbitCamera camera_;
     bool follow_camera_ = false, measuring_ = false;
@@ -109,7 +115,7 @@ class ViewerWindow : public nanogui::Screen {
 
     bool scene_changed_ = true;
     double last_drawn_interaction_ = -1;
-    bool panels_changed_ = true;
+    bool panels_changed_ = true, picture_changed_ = true;
     int drag_button_ = -1;
     Eigen::Vector2i drag_start_ = Eigen::Vector2i::Zero();
     Clock::time_point last_click_;

@@ -54,7 +54,9 @@ TEST(AlignedTruth, liesOverTheEstimate) {
         estimate.push_back({1.0 * i, pose});
         truth.push_back({1.0 * i, T_truth_estimate * pose});
     }
+    truth.push_back({500, SE3()});  // long after
     const TrueTrajectory aligned = alignedTruth(estimate, truth);
+    EXPECT_EQ(aligned.poses.size(), 20U);
     EXPECT_LT(aligned.rmse_m, 1e-9);
     ASSERT_EQ(aligned.errors.size(), 20U);
     EXPECT_LT((aligned.poses[7].T_world_cam.t - estimate[7].T_world_cam.t).norm(), 1e-9);

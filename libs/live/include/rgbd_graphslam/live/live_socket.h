@@ -34,8 +34,9 @@ class FileDescriptor {
 
 /** SLAM's end. One viewer at a time; the next one waits until the first is gone. post() never
  *  blocks: what comes while the viewer is still busy with the last message is dropped, so a viewer
- *  that is slow, stopped or killed costs nothing. All work is done in a thread of its own with the
- *  lowest priority. */
+ *  that is slow, stopped or killed costs nothing. All work is done in a thread of its own; it has
+ *  the priority of the others, which would have to wait for it should it be put off while it holds a
+ *  lock of the allocator. */
 class LiveServer {
   public:
     /** Makes the socket; one that a killed run has left there is replaced.

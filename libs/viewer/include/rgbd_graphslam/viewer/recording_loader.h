@@ -23,7 +23,7 @@ struct KeyframePicture {
 
 /** The true trajectory laid over the estimate. */
 struct TrueTrajectory {
-    Trajectory poses;  // in the estimate's world
+    Trajectory poses;  // in the estimate's world, while the estimate lasts
     struct ErrorLine {
         double stamp_s = 0;
         Eigen::Vector3d estimate, truth;
