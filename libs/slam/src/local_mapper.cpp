@@ -12,6 +12,7 @@ namespace {
 
 constexpr int neighbours_joined = 8;
 constexpr int neighbours_triangulated = 6;
+constexpr int neighbours_culled = 30;
 constexpr double join_window_px = 3;
 constexpr int join_hamming = 50;
 constexpr int probation_keyframes = 3;
@@ -154,29 +155,37 @@ void LocalMapper::cullLandmarks(int keyframe) {
     recent_ = std::move(still_recent);
 }
 
-/** Share of a keyframe's landmarks that enough others see on the same or a finer pyramid level. */
+/** Whether enough other keyframes see a landmark on the same or a finer pyramid level. */
+bool LocalMapper::isRedundant(const Landmark& landmark, int keyframe, int octave) const {
+    int others = 0;
+    for (const Observation& o : landmark.observations) {
+        if (o.keyframe == keyframe) continue;
+        others += map_.keyframe(o.keyframe).frame.keypoints[o.keypoint].octave <= octave + 1;
+        if (others >= observers_that_make_redundant) return true;
+    }
+    return false;
+}
+
+/** Share of a keyframe's landmarks that others see as well. */
 double LocalMapper::redundancy(const Keyframe& keyframe) const {
     int landmarks = 0, redundant = 0;
     for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
         if (keyframe.landmarks[i] == no_landmark) continue;
         ++landmarks;
-        int others = 0;
-        for (const Observation& o : map_.landmark(keyframe.landmarks[i]).observations) {
-            if (o.keyframe == keyframe.id) continue;
-            others += map_.keyframe(o.keyframe).frame.keypoints[o.keypoint].octave <=
-                      keyframe.frame.keypoints[i].octave + 1;
-        }
-        redundant += others >= observers_that_make_redundant;
+        redundant += isRedundant(map_.landmark(keyframe.landmarks[i]), keyframe.id,
+                                 keyframe.frame.keypoints[i].octave);
     }
     return landmarks ? static_cast<double>(redundant) / landmarks : 0;
 }
 
 void LocalMapper::cullKeyframes(int id) {
-    for (const Covisibility& c : map_.covisible(id)) {
+    auto neighbours = map_.covisible(id);
+    if (neighbours.size() > neighbours_culled) neighbours.resize(neighbours_culled);
+    for (const Covisibility& c : neighbours) {
         if (c.keyframe == 0 || c.keyframe >= id - 1) continue;
         if (redundancy(map_.keyframe(c.keyframe)) <= options_.keyframes.cull_share) continue;
-        const auto neighbours = map_.covisible(c.keyframe, 1);
-        if (!neighbours.empty()) map_.cull(c.keyframe, neighbours.front().keyframe);
+        const auto others = map_.covisible(c.keyframe, 1);
+        if (!others.empty()) map_.cull(c.keyframe, others.front().keyframe);
     }
 }
 

@@ -159,8 +159,15 @@ void LoopCloser::travelTo(int keyframe) {
     }
 }
 
+void LoopCloser::forgetCulled(int newest) {
+    for (int k = 0; k < newest; ++k) {
+        if (map_.keyframe(k).culled) index_.erase(k);
+    }
+}
+
 std::vector<PoseEdge> LoopCloser::findLoops(int keyframe) {
     travelTo(keyframe);
+    forgetCulled(keyframe);
     std::vector<Loop> verified;
     for (const int candidate : candidatesFor(keyframe)) {
         if (auto loop = verify(keyframe, candidate)) verified.push_back(std::move(*loop));

@@ -77,10 +77,14 @@ struct PlaceIndex::Tree {
         return node;
     }
 
-    void insert(const Entry& entry) {
+    void insert(const Entry& entry, const std::vector<char>& erased) {
         const int leaf = leafOf(entry.descriptor);
-        nodes[leaf].entries.push_back(entry);
-        if (nodes[leaf].entries.size() > nodes[leaf].splits_at) split(leaf);
+        auto& entries = nodes[leaf].entries;
+        entries.push_back(entry);
+        if (entries.size() <= nodes[leaf].splits_at) return;
+        const auto forgotten = [&](const Entry& e) { return erased[e.keyframe] != 0; };
+        entries.erase(std::remove_if(entries.begin(), entries.end(), forgotten), entries.end());
+        if (entries.size() > nodes[leaf].splits_at) split(leaf);
     }
 
     void split(int leaf) {
@@ -127,27 +131,34 @@ PlaceIndex::PlaceIndex(int max_hamming) : max_hamming_(max_hamming) {
 PlaceIndex::~PlaceIndex() = default;
 
 void PlaceIndex::insert(int keyframe, const std::vector<Descriptor>& descriptors) {
-    keyframes_ = keyframe + 1;
+    erased_.resize(keyframe + 1, false);
     for (const Descriptor& descriptor : descriptors) {
-        for (auto& tree : trees_) tree->insert({descriptor, keyframe});
+        for (auto& tree : trees_) tree->insert({descriptor, keyframe}, erased_);
     }
 }
 
 void PlaceIndex::insertAll(const std::vector<std::vector<Descriptor>>& descriptors) {
-    keyframes_ = static_cast<int>(descriptors.size());
+    erased_.resize(descriptors.size(), false);
     std::vector<std::future<void>> growing;
     for (auto& tree : trees_) {
-        growing.push_back(std::async(std::launch::async, [&tree, &descriptors] {
+        growing.push_back(std::async(std::launch::async, [&] {
             for (std::size_t k = 0; k < descriptors.size(); ++k) {
-                for (const Descriptor& d : descriptors[k]) tree->insert({d, static_cast<int>(k)});
+                for (const Descriptor& d : descriptors[k]) {
+                    tree->insert({d, static_cast<int>(k)}, erased_);
+                }
             }
         }));
     }
     for (auto& done : growing) done.get();
 }
 
+void PlaceIndex::erase(int keyframe) {
+    erased_[keyframe] = true;
+}
+
 std::vector<PlaceVote> PlaceIndex::query(const std::vector<Descriptor>& descriptors) const {
-    std::vector<int> last_voter(keyframes_, -1), votes(keyframes_, 0);
+    const int keyframes = static_cast<int>(erased_.size());
+    std::vector<int> last_voter(keyframes, -1), votes(keyframes, 0);
     for (std::size_t i = 0; i < descriptors.size(); ++i) {
         for (const auto& tree : trees_) {
             const auto& leaf = tree->nodes[tree->leafOf(descriptors[i])].entries;
@@ -155,8 +166,8 @@ std::vector<PlaceVote> PlaceIndex::query(const std::vector<Descriptor>& descript
         }
     }
     std::vector<PlaceVote> result;
-    for (int k = 0; k < keyframes_; ++k) {
-        if (votes[k]) result.push_back({k, votes[k]});
+    for (int k = 0; k < keyframes; ++k) {
+        if (votes[k] && !erased_[k]) result.push_back({k, votes[k]});
     }
     std::sort(result.begin(), result.end(), [](const PlaceVote& a, const PlaceVote& b) {
         return a.votes != b.votes ? a.votes > b.votes : a.keyframe < b.keyframe;

@@ -4,6 +4,13 @@
 #include <cmath>
 
 namespace rgbd_graphslam {
+namespace {
+
+/** Nothing but the last frame and the adjustment at work remembers landmarks by id, and neither
+ *  outlives the next keyframe. */
+constexpr std::size_t keyframes_of_rest = 2;
+
+}  // namespace
 
 SlamMap::SlamMap(double scale_factor, int levels) : log_scale_factor_(std::log(scale_factor)) {
     for (int l = 0; l < levels; ++l) scale_.push_back(std::pow(scale_factor, l));
@@ -49,11 +56,28 @@ int SlamMap::addLandmark(const Eigen::Vector3d& position, int keyframe, int keyp
     Landmark landmark;
     landmark.position = position;
     landmark.first_keyframe = keyframe;
-    landmarks_.push_back(std::move(landmark));
     ++alive_;
-    const int id = static_cast<int>(landmarks_.size()) - 1;
+    const int id = freeLandmark();
+    landmarks_[id] = std::move(landmark);
     addObservation(id, keyframe, keypoint);
     return id;
+}
+
+int SlamMap::freeLandmark() {
+    if (!dead_.empty() && keyframes_.size() >= dead_.front().second + keyframes_of_rest) {
+        const int id = dead_.front().first;
+        dead_.pop_front();
+        return id;
+    }
+    landmarks_.emplace_back();
+    return static_cast<int>(landmarks_.size()) - 1;
+}
+
+void SlamMap::bury(int id) {
+    landmarks_[id].observations = {};
+    landmarks_[id].alive = false;
+    --alive_;
+    dead_.emplace_back(id, keyframes_.size());
 }
 
 void SlamMap::addObservation(int landmark, int keyframe, int keypoint) {
@@ -85,8 +109,7 @@ void SlamMap::removeObservation(int id, int keyframe) {
     keyframes_[keyframe].landmarks[place->keypoint] = no_landmark;
     observations.erase(place);
     if (observations.empty()) {
-        landmarks_[id].alive = false;
-        --alive_;
+        bury(id);
     } else {
         refreshAppearance(id);
     }
@@ -98,9 +121,7 @@ void SlamMap::removeLandmark(int id) {
     for (const Observation& o : landmark.observations) {
         keyframes_[o.keyframe].landmarks[o.keypoint] = no_landmark;
     }
-    landmark.observations = {};
-    landmark.alive = false;
-    --alive_;
+    bury(id);
 }
 
 void SlamMap::fuse(int from, int into) {

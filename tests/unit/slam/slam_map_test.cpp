@@ -75,6 +75,20 @@ TEST(SlamMap, staysConsistentUnderRandomChanges) {
     expectConsistent(map);
 }
 
+TEST(SlamMap, usesTheIdOfALandmarkAgainTwoKeyframesAfterItsDeath) {
+    SlamMap map(1.2, 8);
+    map.addKeyframe(frameOf(10), SE3());
+    const int dead = map.addLandmark({0, 0, 1}, 0, 0);
+    map.removeLandmark(dead);
+    map.addKeyframe(frameOf(10), SE3());
+    EXPECT_NE(map.addLandmark({0, 0, 1}, 1, 1), dead);
+    map.addKeyframe(frameOf(10), SE3());
+    EXPECT_EQ(map.addLandmark({0, 0, 2}, 2, 2), dead);
+    EXPECT_TRUE(map.landmark(dead).alive);
+    EXPECT_EQ(map.landmark(dead).first_keyframe, 2);
+    EXPECT_EQ(map.aliveLandmarks(), 2u);
+}
+
 TEST(SlamMap, culledKeyframeMovesWithItsParent) {
     SlamMap map(1.2, 8);
     map.addKeyframe(frameOf(1), SE3());

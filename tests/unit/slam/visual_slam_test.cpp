@@ -17,6 +17,7 @@ struct SlamRun {
     std::vector<SE3> truth;
     int loops = 0;
     int keyframes = 0;
+    long living_keyframes = 0;
 
     /** Largest distance between estimate and truth, both seen from the first frame, m. */
     double largestError() const {
@@ -53,6 +54,9 @@ SlamRun runOn(const std::vector<std::optional<SE3>>& poses, SlamOptions options 
     }
     slam.finish();
     run.frames = slam.frames();
+    const auto all = slam.keyframes();
+    run.living_keyframes =
+        std::count_if(all.begin(), all.end(), [](const KeyframeView& k) { return !k.culled; });
     return run;
 }
 
@@ -97,6 +101,22 @@ TEST(VisualSlam, takesNoPlaceThatMerelyLooksAlikeForALoop) {
     SlamOptions gullible;
     gullible.loops.max_drift_share = 1;
     EXPECT_GT(runOn(alongWall(12), gullible, wall).loops, 0) << "the places do not look alike";
+}
+
+/** There and back over a quarter of the circle. */
+std::vector<std::optional<SE3>> swings(int count) {
+    std::vector<std::optional<SE3>> poses;
+    for (int i = 0; i < 80 * count; ++i) {
+        poses.emplace_back(onCircle(pi / 4 * (1 - std::cos(2 * pi * i / 80))));
+    }
+    return poses;
+}
+
+TEST(VisualSlam, aMapOfOnePlaceStopsGrowing) {
+    const SlamRun few = runOn(swings(3)), many = runOn(swings(9));
+    EXPECT_GT(many.keyframes, 2 * few.keyframes);
+    EXPECT_LT(many.living_keyframes, 1.4 * few.living_keyframes);
+    EXPECT_LT(many.largestError(), 0.02);
 }
 
 TEST(VisualSlam, comesBackAfterTheCameraWasCovered) {

@@ -44,6 +44,7 @@ class LocalMapper {
     void cullLandmarks(int keyframe);
     void moveUnadjusted(int keyframe, const SE3& new_T_cam_world, const std::vector<int>& adjusted);
     void cullKeyframes(int keyframe);
+    bool isRedundant(const Landmark& landmark, int keyframe, int octave) const;
     double redundancy(const Keyframe& keyframe) const;
     std::unique_ptr<Job> makeJob(int keyframe) const;
     std::vector<int> landmarksSeenBy(const std::vector<int>& keyframes) const;

@@ -53,6 +53,7 @@ class LoopCloser {
         std::vector<int> landmarks;
     };
     void travelTo(int keyframe);
+    void forgetCulled(int newest);
     double pathLength(int from, int to) const;
     Drift greatestDrift(int from, int to) const;
     Drift asked(const PoseEdge& loop) const;

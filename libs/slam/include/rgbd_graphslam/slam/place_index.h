@@ -28,13 +28,17 @@ class PlaceIndex {
     /** The same for many, one list a keyframe from 0; the trees grow side by side. */
     void insertAll(const std::vector<std::vector<Descriptor>>& descriptors);
 
+    /** Forgets a keyframe; the memory of its descriptors is used again as their leaves fill up. */
+    void erase(int keyframe);
+
     /** Keyframes with their number of matches, best first, then by id. */
     std::vector<PlaceVote> query(const std::vector<Descriptor>& descriptors) const;
 
   private:
     struct Tree;
     int max_hamming_;
-    int keyframes_ = 0;
+    /** One a keyframe. */
+    std::vector<char> erased_;
     std::vector<std::unique_ptr<Tree>> trees_;
 };
 

@@ -1,6 +1,7 @@
 /** Keyframes, landmarks and who sees what. */
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <utility>
 #include <vector>
 
@@ -65,7 +66,8 @@ struct Covisibility {
 };
 
 /** The sparse map. Keeps both directions of every observation consistent; all methods that change
- * it go through it. Ids count from 0 without gaps and are never used again. */
+ *  it go through it. Ids count from 0 without gaps. A keyframe's is never used again; a landmark's
+ *  is two keyframes after its death, so that a map of one place stops growing. */
 class SlamMap {
   public:
     /** \param scale_factor between pyramid levels; \param levels of the pyramid */
@@ -114,12 +116,16 @@ class SlamMap {
 
   private:
     void refreshAppearance(int landmark);
+    void bury(int landmark);
+    int freeLandmark();
 
     std::vector<double> scale_;
     double log_scale_factor_;
     std::vector<Keyframe> keyframes_;
     std::vector<Landmark> landmarks_;
     std::size_t alive_ = 0;
+    /** Dead landmarks and the number of keyframes at their death. */
+    std::deque<std::pair<int, std::size_t>> dead_;
     mutable std::vector<int> votes_;  // one a keyframe, all zero between calls
 };
 
