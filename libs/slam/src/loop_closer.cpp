@@ -26,6 +26,7 @@ constexpr int fewest_that_tie = 15;
 
 /** Disagreement of a loop with the map that needs no long path to explain. */
 constexpr double least_drift_m = 0.3, least_drift_rad = 0.3;
+constexpr double weak_link_m = 25;
 /** Farther apart, two views have hardly a descriptor in common. */
 constexpr double widest_view_m = 4, widest_view_rad = 1.2;
 /** A loop with fewer inliers than this share of the best one's is no contender. */
@@ -150,12 +151,13 @@ std::optional<LoopCloser::Loop> LoopCloser::likeliest(std::vector<Loop> loops) c
     return best;
 }
 
-/** Brings the odometer up to a keyframe. */
+/** Brings the odometer up to a keyframe. A weak link makes the way as unsure as many metres. */
 void LoopCloser::travelTo(int keyframe) {
     if (travelled_m_.empty()) travelled_m_.push_back(0);
     for (int k = static_cast<int>(travelled_m_.size()); k <= keyframe; ++k) {
         const SE3 step = map_.T_cam_world(k - 1) * map_.T_cam_world(k).inverse();
-        travelled_m_.push_back(travelled_m_.back() + step.t.norm());
+        const double unsure = map_.keyframe(k).link == Link::Weak ? weak_link_m : 0;
+        travelled_m_.push_back(travelled_m_.back() + step.t.norm() + unsure);
     }
 }
 
