@@ -16,7 +16,7 @@ constexpr double least_agreement = 0.5;
 /** A point that few keyframes have seen is not only less exact: people who walk through the view
  * are made of such points, and outnumber the room when they are near. */
 double trustIn(std::size_t observations) {
-    constexpr double trust[] = {0.1, 0.1, 0.3, 1};
+    constexpr double trust[] = {0.2, 0.2, 0.5, 1};
     return trust[std::min<std::size_t>(observations, 3)];
 }
 
