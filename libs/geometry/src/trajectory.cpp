@@ -31,6 +31,20 @@ std::vector<double> numbersOf(std::string text, const std::string& path, int lin
 
 }  // namespace
 
+std::optional<SE3> poseAt(const Trajectory& trajectory, double stamp_s, double longest_gap_s) {
+    const auto after =
+        std::lower_bound(trajectory.begin(), trajectory.end(), stamp_s,
+                         [](const StampedPose& pose, double s) { return pose.stamp_s < s; });
+    if (after == trajectory.end()) return std::nullopt;
+    if (after->stamp_s == stamp_s) return after->T_world_cam;
+    if (after == trajectory.begin()) return std::nullopt;
+    const auto before = after - 1;
+    const double gap_s = after->stamp_s - before->stamp_s;
+    if (gap_s > longest_gap_s) return std::nullopt;
+    return interpolate(before->T_world_cam, after->T_world_cam,
+                       (stamp_s - before->stamp_s) / gap_s);
+}
+
 Trajectory readTumPoses(const std::string& path) {
     std::ifstream in(path);
     if (!in) throw Error("cannot read the trajectory '" + path + "'", "check the name");

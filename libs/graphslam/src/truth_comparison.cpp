@@ -2,18 +2,8 @@
 
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
-#include "rgbd_graphslam/geometry/associate.h"
 
 namespace rgbd_graphslam {
-namespace {
-
-std::vector<double> stampsOf(const Trajectory& poses) {
-    std::vector<double> stamps_s;
-    for (const StampedPose& pose : poses) stamps_s.push_back(pose.stamp_s);
-    return stamps_s;
-}
-
-}  // namespace
 
 std::optional<TruthComparison> compareWithTruth(const Trajectory& estimate,
                                                 const Trajectory& truth) {
@@ -21,10 +11,11 @@ std::optional<TruthComparison> compareWithTruth(const Trajectory& estimate,
     try {
         TruthComparison comparison{evaluateAte(estimate, truth), {}};
         const SE3 T_estimate_truth = comparison.ate.alignment.motion.inverse();
-        for (const auto& pair :
-             associate(stampsOf(truth), stampsOf(estimate), AteOptions().max_difference_s)) {
-            const StampedPose& pose = truth[pair.first];
-            comparison.truth.push_back({pose.stamp_s, T_estimate_truth * pose.T_world_cam});
+        for (const StampedPose& pose : estimate) {
+            constexpr double longest_gap_s = 0.1;
+            const auto T_truth_cam = poseAt(truth, pose.stamp_s, longest_gap_s);
+            if (!T_truth_cam) continue;
+            comparison.truth.push_back({pose.stamp_s, T_estimate_truth * *T_truth_cam});
         }
         return comparison;
     } catch (const Error& e) {

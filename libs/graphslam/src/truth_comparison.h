@@ -8,8 +8,8 @@ namespace rgbd_graphslam {
 
 struct TruthComparison {
     AteResult ate;
-    /** Of each pose of the estimate that has one: its true pose, moved to where the two
-     * trajectories fit best, in the estimate's world; with the truth's stamp. */
+    /** The true pose at the stamp of each pose of the estimate, interpolated, moved to where the
+     * two trajectories fit best, in the estimate's world. Gaps of the truth leave gaps. */
     Trajectory truth;
 };
 

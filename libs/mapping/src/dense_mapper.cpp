@@ -43,7 +43,11 @@ void DenseMapper::insert(const SE3& T_world_cam, const RgbdImage& image) {
     if (grid_volume_) grid_volume_->insert(T_world_cam, view);
     points_.insert(T_world_cam, view);
     ++keyframes_;
-    checkMemory();
+}
+
+void DenseMapper::finish() {
+    octree_volume_.dropSpill();
+    if (grid_volume_) grid_volume_->dropSpill();
 }
 
 PointMap DenseMapper::points() const {
@@ -73,25 +77,34 @@ std::size_t DenseMapper::bytes() const {
     return points_.bytes() + octree_volume_.bytes() + (grid_volume_ ? grid_volume_->bytes() : 0);
 }
 
-void DenseMapper::checkMemory() const {
+void DenseMapper::checkMemory(double share) const {
+    constexpr double trusted_share = 0.1, forecast_slack = 1.25;
     // Writing the files needs about as much again: the points once more, and the octree's nodes.
-    const double needed_mb = 2e-6 * static_cast<double>(bytes());
-    if (needed_mb <= options_.memory_limit_mb) return;
-    const double excess = needed_mb / options_.memory_limit_mb;
-    // Blocks and points both follow the surface or less than the cube of the resolution.
-    const double coarser = std::cbrt(excess) * 1.26;
-    const bool points_dominate = points_.bytes() > bytes() / 2;
-    const char* key = points_dominate ? "point_voxel_m"
-                      : grid_volume_ && grid_volume_->bytes() > octree_volume_.bytes()
-                          ? "grid_resolution_m"
-                          : "octree_resolution_m";
-    const double now = points_dominate ? options_.point_voxel_m
-                       : key[0] == 'g' ? options_.grid_resolution_m
-                                       : options_.octree_resolution_m;
-    throw Error("after " + std::to_string(keyframes_) + " keyframes the maps need " +
-                    shortNumber(needed_mb) +
+    const double now_mb = 2e-6 * static_cast<double>(bytes());
+    const double all_mb = now_mb / std::max(share, 0.01), limit_mb = options_.memory_limit_mb;
+    const bool will_fit = share < trusted_share || all_mb <= forecast_slack * limit_mb;
+    if (now_mb <= limit_mb && will_fit) return;
+    throw Error("the maps of all keyframes need about " + std::to_string(std::lround(all_mb)) +
                     " MB, more than memory_limit_mb = " + std::to_string(options_.memory_limit_mb),
-                std::string("set ") + key + " to " + shortNumber(now * coarser) + " or coarser");
+                "set " + coarserResolutions(all_mb / now_mb) + " or coarser");
+}
+
+/** Each part gets the same share of the limit; its memory falls at least with the square of the
+ *  resolution, as surfaces do. */
+std::string DenseMapper::coarserResolutions(double growth) const {
+    constexpr double spare = 1.1;
+    const double part_limit_mb = options_.memory_limit_mb / (grid_volume_ ? 3. : 2.);
+    std::string keys;
+    const auto name = [&](const char* key, double resolution_m, std::size_t part) {
+        const double part_mb = growth * 2e-6 * static_cast<double>(part);
+        if (part_mb <= part_limit_mb) return;
+        keys += (keys.empty() ? "" : " and ") + std::string(key) + " to " +
+                shortNumber(spare * std::sqrt(part_mb / part_limit_mb) * resolution_m);
+    };
+    name("point_voxel_m", options_.point_voxel_m, points_.bytes());
+    name("octree_resolution_m", options_.octree_resolution_m, octree_volume_.bytes());
+    if (grid_volume_) name("grid_resolution_m", options_.grid_resolution_m, grid_volume_->bytes());
+    return keys;
 }
 
 }  // namespace rgbd_graphslam

@@ -1,5 +1,7 @@
 #include "rgbd_graphslam/mapping/keyframe_reader.h"
 
+#include <mrpt/obs/CObservationComment.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,6 +10,7 @@
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/progress.h"
+#include "rgbd_graphslam/dataset/depth_stamps.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
@@ -17,7 +20,7 @@ namespace {
 
 constexpr double stamp_tolerance_s = 5e-4;
 
-std::optional<std::size_t> poseAt(const Trajectory& poses, double stamp_s) {
+std::optional<std::size_t> indexAt(const Trajectory& poses, double stamp_s) {
     const auto near =
         std::lower_bound(poses.begin(), poses.end(), stamp_s - stamp_tolerance_s,
                          [](const StampedPose& pose, double s) { return pose.stamp_s < s; });
@@ -25,24 +28,46 @@ std::optional<std::size_t> poseAt(const Trajectory& poses, double stamp_s) {
     return static_cast<std::size_t>(near - poses.begin());
 }
 
+void noteDepthStamps(const mrpt::obs::CObservation& observation, DepthStamps& stamps) {
+    const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(&observation);
+    if (comment) stamps.merge(depthStampsIn(comment->text));
+}
+
+double depthStamp(const DepthStamps& stamps, double color_stamp_s) {
+    const auto found = stamps.find(std::llround(1e6 * color_stamp_s));
+    return found == stamps.end() ? color_stamp_s : 1e-6 * static_cast<double>(found->second);
+}
+
 }  // namespace
+
+SE3 depthPose(const Keyframe3D& keyframe, const Trajectory& trajectory) {
+    constexpr double longest_gap_s = 0.2;
+    const auto T_color = poseAt(trajectory, keyframe.pose.stamp_s, longest_gap_s),
+               T_depth = poseAt(trajectory, keyframe.depth_stamp_s, longest_gap_s);
+    if (!T_color || !T_depth) return keyframe.pose.T_world_cam;
+    return keyframe.pose.T_world_cam * (T_color->inverse() * *T_depth);
+}
 
 std::size_t forEachKeyframe(const std::string& rawlog, const Trajectory& keyframes,
                             const std::string& label,
                             const std::function<void(const Keyframe3D&)>& consume) {
     RawlogReader reader(rawlog);
     Progress progress(label, keyframes.size(), "keyframes");
+    DepthStamps depth_stamps;
     std::vector<bool> seen(keyframes.size());
     std::size_t found = 0;
     while (found < keyframes.size()) {
         const auto observation = reader.next();
         if (!observation) break;
+        noteDepthStamps(*observation, depth_stamps);
         const auto frame =
             std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation);
         if (!frame || !frame->hasRangeImage) continue;
-        const auto index = poseAt(keyframes, toSeconds(frame->timestamp));
+        const auto index = indexAt(keyframes, toSeconds(frame->timestamp));
         if (!index || seen[*index]) continue;
-        consume({*index, keyframes[*index], toRgbdImage(frame), cameraOf(*frame)});
+        const StampedPose& pose = keyframes[*index];
+        consume({*index, pose, depthStamp(depth_stamps, pose.stamp_s), toRgbdImage(frame),
+                 cameraOf(*frame)});
         seen[*index] = true;
         progress.update(++found);
     }

@@ -24,6 +24,7 @@
 #include "rgbd_graphslam/mapping/plan_view.h"
 #include "rgbd_graphslam/mapping/simple_map.h"
 #include "rgbd_graphslam/mapping/upright.h"
+#include "rgbd_graphslam/mapping/view_coverage.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -87,7 +88,8 @@ std::vector<SurfacePatch> readPatches(const MapInputs& inputs, const MapOptions&
                     [&](const Keyframe3D& keyframe) {
                         if (!rays) rays.emplace(keyframe.camera);
                         const DepthView view(keyframe.image, *rays, options);
-                        const auto found = surfacePatches(keyframe.pose.T_world_cam, view);
+                        const SE3 T = depthPose(keyframe, inputs.trajectory);
+                        const auto found = surfacePatches(T, view);
                         patches.insert(patches.end(), found.begin(), found.end());
                     });
     return patches;
@@ -140,28 +142,39 @@ struct Maps {
     std::optional<Camera> camera;
     std::optional<RayTable> rays;
     std::optional<DenseMapper> dense;
+    std::optional<ViewCoverage> coverage;
     mrpt::maps::CSimpleMap simple;
     double insert_ms = 0;
 
-    void add(const Keyframe3D& keyframe, const MapOptions& options) {
+    void add(const Keyframe3D& keyframe, const MapInputs& inputs, const MapOptions& options) {
         if (!dense) {
             camera = keyframe.camera;
             rays.emplace(keyframe.camera);
             dense.emplace(options, keyframe.camera);
+            coverage.emplace(keyframe.camera, inputs.keyframes);
         }
+        const SE3 T_world_cam = depthPose(keyframe, inputs.trajectory);
         const auto start = Clock::now();
-        const SE3& T = keyframe.pose.T_world_cam;
-        dense->insert(T, keyframe.image);
+        dense->insert(T_world_cam, keyframe.image);
         insert_ms += millisecondsSince(start);
-        addKeyframe(simple, keyframe.pose.stamp_s, T, DepthView(keyframe.image, *rays, options),
-                    options);
+        coverage->add(keyframe.pose.T_world_cam);
+        dense->checkMemory(coverage->share());
+        addKeyframe(simple, keyframe.depth_stamp_s, T_world_cam,
+                    DepthView(keyframe.image, *rays, options), options);
+    }
+
+    void finish() {
+        const auto start = Clock::now();
+        dense->finish();
+        insert_ms += millisecondsSince(start);
     }
 };
 
-std::size_t addSession(Maps& maps, const MapOptions& options, const std::string& rawlog,
-                       const Trajectory& keyframes) {
-    return forEachKeyframe(rawlog, keyframes, "mapping",
-                           [&](const Keyframe3D& keyframe) { maps.add(keyframe, options); });
+std::size_t addSession(Maps& maps, const MapInputs& inputs, const MapOptions& options,
+                       const std::string& rawlog, const Trajectory& keyframes) {
+    return forEachKeyframe(rawlog, keyframes, "mapping", [&](const Keyframe3D& keyframe) {
+        maps.add(keyframe, inputs, options);
+    });
 }
 
 /** \return how many keyframes were added */
@@ -173,13 +186,14 @@ std::size_t addSessions(Maps& maps, const MapInputs& inputs, const MapOptions& o
         begin += static_cast<std::ptrdiff_t>(session.keyframes);
         if (keyframes.empty()) continue;
         try {
-            added += addSession(maps, options, session.rawlog, keyframes);
+            added += addSession(maps, inputs, options, session.rawlog, keyframes);
         } catch (const Error& e) {
             sayWarning(std::string("an earlier session is left out of the maps: ") + e.what());
         }
     }
     if (begin == inputs.keyframes.end()) return added;
-    return added + addSession(maps, options, inputs.rawlog, {begin, inputs.keyframes.end()});
+    return added +
+           addSession(maps, inputs, options, inputs.rawlog, {begin, inputs.keyframes.end()});
 }
 
 MapSummary writeFiles(const MapInputs& inputs, const Maps& maps, const std::string& folder) {
@@ -270,6 +284,7 @@ MapSummary writeMaps(const MapInputs& all, const MapOptions& options,
     Maps maps;
     const std::size_t found = addSessions(maps, inputs, options);
     if (found == 0) throw Error("no rawlog of the keyframes is left", "give --rawlog FILE");
+    maps.finish();
     MapSummary summary = writeFiles(inputs, maps, out_folder);
     summary.keyframes = found;
     summary.insert_ms = maps.insert_ms / static_cast<double>(found);

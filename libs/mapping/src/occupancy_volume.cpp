@@ -48,7 +48,7 @@ int samplingStep(const Camera& camera, double voxel_m, double max_range_m) {
 }  // namespace
 
 OccupancyVolume::OccupancyVolume(double resolution_m, double hit_share)
-    : resolution_m_(resolution_m), hit_share_(hit_share) {
+    : resolution_m_(resolution_m), hit_share_(hit_share), cells_(resolution_m) {
     if (!(resolution_m > 0)) throw Error("the resolution of an octree must be positive");
 }
 
@@ -79,7 +79,7 @@ std::optional<Eigen::Vector3f> OccupancyVolume::color(const VoxelIndex& voxel) c
 
 std::size_t OccupancyVolume::bytes() const {
     return blocks_.bytes() + blocks_.entries().size() * sizeof(Block) + colors_.bytes() +
-           frame_.bytes();
+           cells_.bytes() + frame_cells_.bytes() + frame_.bytes();
 }
 
 void OccupancyVolume::checkReach(const SE3& T_world_cam, double range_m) const {
@@ -122,14 +122,25 @@ void OccupancyVolume::addMiss(const VoxelCube& cube) {
     }
 }
 
-void OccupancyVolume::addHits(const SE3& T_world_cam, const DepthView& view) {
+/** Into frame_ by voxel, and into the cells. */
+void OccupancyVolume::sortReadings(const SE3& T_world_cam, const DepthView& view, int step) {
+    frame_cells_.clear();
     frame_.clear();
+    SurfaceSampler(view, T_world_cam, cells_.cellSize(), step)
+        .forEachRun([&](const VoxelIndex& cell, const SurfaceSample& run) {
+            frame_cells_[voxelKey(cell)].add(run);
+        });
+    for (const auto& [key, sample] : frame_cells_.entries()) {
+        cells_.add(key, sample);
+        const VoxelIndex cell = voxelOfKey(key);
+        frame_[voxelKey({cell.x >> 1, cell.y >> 1, cell.z >> 1})].add(sample);
+    }
+}
+
+void OccupancyVolume::addHits(const SE3& T_world_cam, const DepthView& view) {
     const Camera& camera = view.rays.camera();
     const int step = samplingStep(camera, resolution_m_, view.max_range_m);
-    const SurfaceSampler sampler(view, T_world_cam, resolution_m_, step);
-    sampler.forEachRun([&](const VoxelIndex& voxel, const SurfaceSample& run) {
-        frame_[voxelKey(voxel)].add(run);
-    });
+    sortReadings(T_world_cam, view, step);
     const double share = hit_share_ / (step * step);
     const Eigen::Vector3d forward = T_world_cam.R.col(2);
     for (const auto& [key, sample] : frame_.entries()) {
@@ -143,6 +154,30 @@ void OccupancyVolume::addHits(const SE3& T_world_cam, const DepthView& view) {
         ColorSum& color = colors_[key];
         color.sum += sample.color;
         color.weight += sample.weight;
+    }
+}
+
+/** What holds more readings than the voxels around it is where the surface is. */
+bool OccupancyVolume::isSpill(const VoxelIndex& voxel) const {
+    const ColorSum* own = colors_.find(voxelKey(voxel));
+    const auto outweighs = [&](int x, int y, int z) {
+        const ColorSum* other = colors_.find(voxelKey({voxel.x + x, voxel.y + y, voxel.z + z}));
+        return other && other->weight > own->weight;
+    };
+    const bool beside_more = outweighs(-1, 0, 0) || outweighs(1, 0, 0) || outweighs(0, -1, 0) ||
+                             outweighs(0, 1, 0) || outweighs(0, 0, -1) || outweighs(0, 0, 1);
+    if (!beside_more) return false;
+    const auto plane = cells_.planeAt(voxel);
+    const Eigen::Vector3d center =
+        resolution_m_ * (Eigen::Vector3d(voxel.x, voxel.y, voxel.z).array() + 0.5);
+    return plane && !plane->crosses(center, resolution_m_);
+}
+
+void OccupancyVolume::dropSpill() {
+    for (const auto& entry : colors_.entries()) {
+        const VoxelIndex voxel = voxelOfKey(entry.key);
+        std::int8_t& value = block(voxel).log_odds[indexInBlock(voxel)];
+        if (value >= 0 && isSpill(voxel)) value = unknown;
     }
 }
 

@@ -58,6 +58,12 @@ MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
     const fs::path root(folder);
     if (!fs::is_directory(root))
         throw Error("'" + folder + "' is no folder", "give the output folder of rgbd-slam");
+    if (!fs::exists(root / "keyframes.txt") || !fs::exists(root / "trajectory.txt")) {
+        throw Error("'" + folder +
+                        "' is no output folder of rgbd-slam: it has no keyframes.txt or no "
+                        "trajectory.txt",
+                    "give the folder that rgbd-slam wrote with -o");
+    }
     const auto summary = readSummary(root / "summary.json");
     MapInputs inputs;
     inputs.keyframes = readTumPoses((root / "keyframes.txt").string());

@@ -25,16 +25,6 @@ double degrees(double angle) {
     return angle * M_PI / 180;
 }
 
-std::optional<SE3> poseAt(const Trajectory& trajectory, double stamp_s) {
-    const auto after =
-        std::lower_bound(trajectory.begin(), trajectory.end(), stamp_s,
-                         [](const StampedPose& pose, double s) { return pose.stamp_s < s; });
-    if (after == trajectory.begin() || after == trajectory.end()) return std::nullopt;
-    const auto before = after - 1;
-    const double share = (stamp_s - before->stamp_s) / (after->stamp_s - before->stamp_s);
-    return interpolate(before->T_world_cam, after->T_world_cam, share);
-}
-
 std::optional<Eigen::Vector3d> pointAt(const DepthView& view, int u, int v) {
     const float z = view.depth(v, u);
     if (z <= 0 || z > view.max_range_m) return std::nullopt;

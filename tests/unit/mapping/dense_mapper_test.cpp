@@ -11,6 +11,7 @@
 
 #include "box_room.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/mapping/view_coverage.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -22,6 +23,7 @@ struct Mapped {
         Noise noise;
         for (const SE3& T : walk(24))
             mapper.insert(T, render(room, camera, T, 0, noisy ? &noise : nullptr));
+        mapper.finish();
     }
     BoxRoom room;
     DenseMapper mapper;
@@ -109,6 +111,46 @@ TEST(DenseMapper, octreeTellsSurfaceFromFreeSpace) {
         EXPECT_LT(shares.free_occupied, 0.01);
         EXPECT_GT(shares.free_known, 0.9);
     }
+}
+
+/** A noisy map of another room, before finish(). */
+DenseMapper unfinishedMap(const BoxRoom& room) {
+    DenseMapper mapper({}, smallCamera());
+    Noise noise;
+    for (const SE3& T : walk(24)) mapper.insert(T, render(room, smallCamera(), T, 0, &noise));
+    return mapper;
+}
+
+/** Occupied voxels along a line, at the centres of those it starts in. */
+int occupiedAlong(const OccupancyVolume& volume, Eigen::Vector3d place, int axis, int voxels) {
+    int occupied = 0;
+    for (int i = 0; i < voxels; ++i, place[axis] += volume.resolution()) {
+        const auto log_odds = volume.logOdds(place);
+        occupied += log_odds && *log_odds >= 0;
+    }
+    return occupied;
+}
+
+TEST(DenseMapper, noiseThatSpillsIntoTheNextVoxelsIsTakenBack) {
+    BoxRoom room;
+    room.walls.high.x() = 2.008;  // 8 mm within its voxels
+    DenseMapper mapper = unfinishedMap(room);
+    const Eigen::Vector3d before(1.975, -0.975, 1.525), inside(2.025, -0.975, 1.525);
+    ASSERT_GT(occupiedAlong(mapper.volume(), before, 1, 40), 20);
+    mapper.finish();
+    EXPECT_LT(occupiedAlong(mapper.volume(), before, 1, 40), 4);
+    EXPECT_EQ(occupiedAlong(mapper.volume(), inside, 1, 40), 40);
+}
+
+TEST(DenseMapper, thinThingsAreNoSpill) {
+    BoxRoom room;
+    room.furniture.push_back({{0.856, -0.144, 0}, {0.894, -0.106, 1.6}, {0, 0, 0}});  // a pole
+    DenseMapper mapper = unfinishedMap(room);
+    const Eigen::Vector3d foot(0.875, -0.125, 0.325);
+    const int occupied = occupiedAlong(mapper.volume(), foot, 2, 24);
+    EXPECT_GE(occupied, 22);
+    mapper.finish();
+    EXPECT_EQ(occupiedAlong(mapper.volume(), foot, 2, 24), occupied);
 }
 
 TEST(DenseMapper, pointsHaveTheColorsOfTheirSurfaces) {
@@ -280,20 +322,53 @@ TEST(DenseMapper, imageOfAnotherSizeIsRefused) {
                 testing::AllOf(testing::HasSubstr("640x480"), testing::HasSubstr("320x240")));
 }
 
-TEST(DenseMapper, tooLargeAMapIsRefusedWithTheResolutionThatFits) {
+/** Inserts views until the memory is refused. \return what is said \param[out] inserted views */
+std::string refusalOf(const MapOptions& options, std::size_t& inserted) {
+    DenseMapper mapper(options, smallCamera());
+    Trajectory keyframes;
+    for (const SE3& T : walk(24)) keyframes.push_back({0.1 * keyframes.size(), T});
+    ViewCoverage coverage(smallCamera(), keyframes);
+    inserted = 0;
+    return problemOf([&] {
+        for (const auto& keyframe : keyframes) {
+            const SE3& T = keyframe.T_world_cam;
+            mapper.insert(T, render(BoxRoom(), smallCamera(), T));
+            ++inserted;
+            coverage.add(T);
+            mapper.checkMemory(coverage.share());
+        }
+    });
+}
+
+TEST(DenseMapper, tooLargeAMapIsRefusedEarlyWithTheResolutionThatFits) {
     MapOptions options;
     options.octree_resolution_m = options.grid_resolution_m = 0.005;
-    options.memory_limit_mb = 64;
-    DenseMapper mapper(options, smallCamera());
-    const auto poses = walk(24);
-    const std::string problem = problemOf([&] {
-        for (const SE3& T : poses) mapper.insert(T, render(BoxRoom(), smallCamera(), T));
-    });
-    EXPECT_THAT(problem, testing::AllOf(testing::HasSubstr("64"),
-                                        testing::HasSubstr("octree_resolution_m")));
+    options.point_voxel_m = 0.05;
+    options.memory_limit_mb = 200;
+    std::size_t inserted = 0;
+    const std::string problem = refusalOf(options, inserted);
+    EXPECT_THAT(problem, testing::AllOf(testing::HasSubstr("200"),
+                                        testing::HasSubstr("octree_resolution_m to"),
+                                        testing::Not(testing::HasSubstr("point_voxel_m"))));
+    EXPECT_LE(inserted, 6u);
     const double advised = std::strtod(problem.c_str() + problem.find(" to ") + 4, nullptr);
     EXPECT_GT(advised, 0.005);
     EXPECT_LT(advised, 0.05);
+    options.octree_resolution_m = options.grid_resolution_m = advised;
+    EXPECT_EQ(refusalOf(options, inserted), "");
+    EXPECT_EQ(inserted, 24u);
+}
+
+TEST(ViewCoverage, growsToAllAndNotWithRepetition) {
+    Trajectory keyframes;
+    for (const SE3& T : walk(24)) keyframes.push_back({0.1 * keyframes.size(), T});
+    ViewCoverage coverage(smallCamera(), keyframes);
+    EXPECT_EQ(coverage.share(), 0);
+    for (int i = 0; i < 20; ++i) coverage.add(keyframes[0].T_world_cam);
+    EXPECT_GT(coverage.share(), 0.02);
+    EXPECT_LT(coverage.share(), 0.5);
+    for (const auto& keyframe : keyframes) coverage.add(keyframe.T_world_cam);
+    EXPECT_EQ(coverage.share(), 1);
 }
 
 TEST(DenseMapper, poseOutOfReachOfAnOctreeIsRefused) {

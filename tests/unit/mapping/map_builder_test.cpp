@@ -7,6 +7,7 @@
 #include <mrpt/maps/CSimpleMap.h>
 #include <mrpt/maps/CSimplePointsMap.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/opengl/COpenGLScene.h>
@@ -20,9 +21,11 @@
 #include "box_room.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/depth_stamps.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/mapping/keyframe_reader.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 #include "rgbd_graphslam/mapping/map_scene.h"
 #include "rgbd_graphslam/mapping/run_folder.h"
@@ -136,6 +139,39 @@ TEST_F(MapBuilder, withoutEitherTheFirstCameraIsLevel) {
     const SE3 T_up_first =
         uprightFromWorld(inputs_, options) * inputs_.keyframes.front().T_world_cam;
     EXPECT_LT((T_up_first.R.col(1) + Eigen::Vector3d::UnitZ()).norm(), 1e-9);
+}
+
+TEST_F(MapBuilder, depthIsPlacedWhereTheCameraWasWhenItWasTaken) {
+    constexpr double late_s = 0.012;
+    const long long color_us = std::llround(1e6 * inputs_.keyframes[3].stamp_s);
+    writeRawlog(inputs_.rawlog, RawlogStorage::Embedded, [&](RawlogWriter& writer) {
+        mrpt::obs::CObservationComment comment;
+        comment.text = toIniText(DepthStamps{{color_us, color_us + 12000}});
+        writer.write(comment);
+        for (const auto& pose : inputs_.keyframes) writeFrame(writer, pose);
+    });
+    const SE3 T_other_world(rotationExp({0.1, 0.2, 0.3}), {1, 2, 3});
+    const Trajectory other = transformed(T_other_world, inputs_).trajectory;
+    std::size_t late = 0;
+    forEachKeyframe(inputs_.rawlog, inputs_.keyframes, "reading", [&](const Keyframe3D& keyframe) {
+        const SE3& T = keyframe.pose.T_world_cam;
+        const double delay_s = keyframe.depth_stamp_s - keyframe.pose.stamp_s;
+        if (keyframe.index != 3) {
+            EXPECT_EQ(delay_s, 0);
+            EXPECT_LT((depthPose(keyframe, other).t - T.t).norm(), 1e-9);
+            return;
+        }
+        ++late;
+        EXPECT_NEAR(delay_s, late_s, 1e-6);
+        const SE3 expected = interpolate(T, inputs_.keyframes[4].T_world_cam, late_s / 0.1);
+        for (const Trajectory& trajectory : {inputs_.trajectory, other}) {
+            const SE3 found = depthPose(keyframe, trajectory);
+            EXPECT_LT((found.t - expected.t).norm(), 1e-5);
+            EXPECT_LT((found.R - expected.R).norm(), 1e-5);
+        }
+        EXPECT_EQ(depthPose(keyframe, {}).t, T.t);
+    });
+    EXPECT_EQ(late, 1u);
 }
 
 TEST_F(MapBuilder, everyFileIsWrittenAndReadsBack) {
@@ -274,6 +310,7 @@ TEST_F(RunFolder, whatIsMissingOrBrokenIsNamed) {
     EXPECT_THAT(problem(), testing::HasSubstr("loop_edges"));
     fs::remove(path("keyframes.txt"));
     EXPECT_THAT(problem(), testing::HasSubstr("keyframes.txt"));
+    EXPECT_THAT(problem(), testing::HasSubstr("no output folder of rgbd-slam"));
     EXPECT_THAT(problemOf([&] { readRunFolder(path("none"), ""); }), testing::HasSubstr("none"));
 }
 

@@ -1,5 +1,7 @@
 /** Poses over time. */
 #pragma once
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,11 @@ struct StampedPose {
 
 /** In order of time. */
 using Trajectory = std::vector<StampedPose>;
+
+/** The pose at a time, interpolated between the poses around it. Nothing before the first and after
+ *  the last, and between two that are further apart in time than longest_gap_s. */
+std::optional<SE3> poseAt(const Trajectory& trajectory, double stamp_s,
+                          double longest_gap_s = std::numeric_limits<double>::infinity());
 
 /** Reads `stamp tx ty tz qx qy qz qw` lines (seconds, metres, unit quaternion), the format of the
  *  TUM RGB-D benchmark; commas and tabs separate as blanks do, `#` starts a comment. Rows with NaN

@@ -1,6 +1,7 @@
 /** Dense maps from depth images with known poses. */
 #pragma once
 #include <memory>
+#include <string>
 
 #include "rgbd_graphslam/mapping/grid_builder.h"
 #include "rgbd_graphslam/mapping/octree_builder.h"
@@ -14,9 +15,16 @@ class DenseMapper {
   public:
     DenseMapper(const MapOptions& options, const Camera& camera);
 
-    /** \throws Error when the pose is not finite, the image does not fit the camera, or the maps
-     *          outgrow memory_limit_mb, naming the resolution that would fit */
+    /** \throws Error when the pose is not finite or the image does not fit the camera */
     void insert(const SE3& T_world_cam, const RgbdImage& image);
+
+    /** \param share of the whole that is inserted by now, in (0, 1]; see ViewCoverage
+     *  \throws Error when the maps outgrow memory_limit_mb, or will when all is inserted, naming
+     * the resolutions that would fit. A forecast from less than a tenth is not trusted */
+    void checkMemory(double share = 1) const;
+
+    /** Takes back what noise alone made occupied; to be called after the last keyframe. */
+    void finish();
 
     /** Fused points, without those in free space when so set. */
     PointMap points() const;
@@ -30,7 +38,8 @@ class DenseMapper {
     std::size_t bytes() const;
 
   private:
-    void checkMemory() const;
+    /** \param growth factor on the memory until all is inserted */
+    std::string coarserResolutions(double growth) const;
     const OccupancyVolume& gridVolume() const {
         return grid_volume_ ? *grid_volume_ : octree_volume_;
     }

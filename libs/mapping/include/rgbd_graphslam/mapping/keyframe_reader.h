@@ -11,7 +11,10 @@ namespace rgbd_graphslam {
 
 struct Keyframe3D {
     std::size_t index;  // in the trajectory given
-    StampedPose pose;
+    StampedPose pose;   // of the colour image
+    /** When the depth image was taken; the stamp of the colour image where the rawlog does not say.
+     */
+    double depth_stamp_s;
     RgbdImage image;
     Camera camera;
 };
@@ -23,5 +26,11 @@ struct Keyframe3D {
 std::size_t forEachKeyframe(const std::string& rawlog, const Trajectory& keyframes,
                             const std::string& label,
                             const std::function<void(const Keyframe3D&)>& consume);
+
+/** Where the camera was when it took the keyframe's depth image: its pose, moved on by what the
+ *  trajectory says about the time between the two stamps, up to 16 ms for a Kinect. The pose itself
+ *  where the trajectory has no poses close by.
+ *  \param trajectory of every frame, in any frame of reference */
+SE3 depthPose(const Keyframe3D& keyframe, const Trajectory& trajectory);
 
 }  // namespace rgbd_graphslam

@@ -22,9 +22,10 @@ struct EarlierSession {
 
 /** What maps are made of. Poses are of the camera's optical frame. */
 struct MapInputs {
-    std::string rawlog;     // where the images are
-    Trajectory keyframes;   // the maps are made of these; in order of time within a session
-    Trajectory trajectory;  // every frame; for the pictures, and to place accelerometer readings
+    std::string rawlog;    // where the images are
+    Trajectory keyframes;  // the maps are made of these; in order of time within a session
+    /** Every frame; places depth images between colour stamps, and accelerometer readings. */
+    Trajectory trajectory;
     std::vector<MapLoopEdge> loops;
     /** Keyframes as they were without loops; may be empty. */
     Trajectory keyframes_before_loops;

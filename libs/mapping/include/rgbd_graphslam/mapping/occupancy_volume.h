@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "rgbd_graphslam/mapping/surface_cells.h"
 #include "rgbd_graphslam/mapping/surface_samples.h"
 
 namespace rgbd_graphslam {
@@ -45,6 +46,11 @@ class OccupancyVolume {
      *  \throws Error when the view reaches beyond what an octree of this resolution can hold */
     void insert(const SE3& T_world_cam, const DepthView& view);
 
+    /** Makes unknown again what is occupied by noise alone: voxels with readings in them which the
+     *  surface, as all views together show it, does not run through. To be called when all views
+     * are in. */
+    void dropSpill();
+
     /** In steps; nothing where unknown. */
     std::optional<int> logOdds(const VoxelIndex& voxel) const;
     std::optional<int> logOdds(const Eigen::Vector3d& point_m) const;
@@ -64,6 +70,8 @@ class OccupancyVolume {
     Block& block(const VoxelIndex& voxel);
     void addMiss(const VoxelCube& cube);
     void addHits(const SE3& T_world_cam, const DepthView& view);
+    void sortReadings(const SE3& T_world_cam, const DepthView& view, int step);
+    bool isSpill(const VoxelIndex& voxel) const;
 
     double resolution_m_;
     double hit_share_;
@@ -73,7 +81,8 @@ class OccupancyVolume {
         float weight = 0;
     };
     VoxelTable<ColorSum> colors_;
-    VoxelTable<SurfaceSample> frame_;  // kept only to reuse its memory
+    SurfaceCells cells_;
+    VoxelTable<SurfaceSample> frame_cells_, frame_;  // of one view; kept to reuse their memory
 };
 
 }  // namespace rgbd_graphslam

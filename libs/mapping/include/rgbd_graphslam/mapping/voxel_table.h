@@ -1,5 +1,6 @@
 /** Sparse voxels: a hash table from integer coordinates to cells. */
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -56,6 +57,21 @@ class VoxelTable {
         return number ? &entries_[number - 1].cell : nullptr;
     }
 
+    /** Calls visit(index, cell) for the entries of a box, both corners included: one search a cube
+     *  instead of one a voxel. */
+    template <class Visit>
+    void forEachWithin(const VoxelIndex& low, const VoxelIndex& high, Visit&& visit) const {
+        if (slots_.empty()) return;
+        for (int x = low.x & ~3; x <= high.x; x += 4) {
+            for (int y = low.y & ~3; y <= high.y; y += 4) {
+                for (int z = low.z & ~3; z <= high.z; z += 4) {
+                    const std::uint32_t found = slots_[slotOf(voxelKey({x, y, z}))];
+                    if (found) visitCube(cubes_[found - 1], {x, y, z}, low, high, visit);
+                }
+            }
+        }
+    }
+
     const std::vector<Entry>& entries() const { return entries_; }
 
     /** Keeps the memory for the next use. */
@@ -81,6 +97,20 @@ class VoxelTable {
 
     static std::size_t within(std::uint64_t key) {
         return (key >> 38 & 48) | (key >> 19 & 12) | (key & 3);
+    }
+
+    template <class Visit>
+    void visitCube(const Cube& cube, const VoxelIndex& corner, const VoxelIndex& low,
+                   const VoxelIndex& high, Visit& visit) const {
+        const auto last = [](int from, int to) { return std::min(from + 3, to); };
+        for (int x = std::max(corner.x, low.x); x <= last(corner.x, high.x); ++x) {
+            for (int y = std::max(corner.y, low.y); y <= last(corner.y, high.y); ++y) {
+                for (int z = std::max(corner.z, low.z); z <= last(corner.z, high.z); ++z) {
+                    const std::uint32_t number = cube.number[within(voxelKey({x, y, z}))];
+                    if (number) visit(VoxelIndex{x, y, z}, entries_[number - 1].cell);
+                }
+            }
+        }
     }
 
     Cube& cube(std::uint64_t key) {
