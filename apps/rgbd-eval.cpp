@@ -153,6 +153,13 @@ void addMap(CLI::App& app, MapRequest& request) {
     declareNumber(command, "--complete-within", options.completeness_distance_m,
                   "A place of the surface with a point of the map nearer is covered, m",
                   positive());
+    command
+        .add_option("--camera", request.camera,
+                    "Name or ini file: tell completeness of what the camera saw on the true "
+                    "trajectory, too")
+        ->needs("--truth");
+    declareNumber(command, "--max-range", request.sight.max_range_m, "The camera sees so far, m",
+                  positive());
     command.final_callback([&request] { print(runMap(request)); });
 }
 

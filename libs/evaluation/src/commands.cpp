@@ -45,9 +45,14 @@ void plotErrors(const TrajectoryRequest& request, const std::vector<ErrorPanel>&
     }
 }
 
+/** \param name or file */
+CameraSetup cameraNamed(const std::string& name) {
+    const auto known = cameraByName(name);
+    return known ? *known : readCameraFile(name);
+}
+
 CameraSetup cameraOf(const PointCloudRequest& request) {
-    const auto known = cameraByName(request.camera);
-    CameraSetup setup = known ? *known : readCameraFile(request.camera);
+    CameraSetup setup = cameraNamed(request.camera);
     if (request.depth_units > 0) setup.depth_units = request.depth_units;
     return setup;
 }
@@ -154,7 +159,14 @@ Similarity alignmentOf(const SurfaceRequest& request) {
 std::string runMap(const MapRequest& request) {
     MapAccuracyOptions options = request.options;
     options.alignment = alignmentOf(request);
-    const auto accuracy = evaluateMap(readPly(request.map), readPly(request.surface), options);
+    const PlyModel surface = readPly(request.surface);
+    std::optional<SurfaceSight> sight;
+    if (!request.camera.empty()) {
+        sight.emplace(surface, cameraNamed(request.camera).camera, readTrajectory(request.truth),
+                      request.sight);
+        options.sight = &*sight;
+    }
+    const auto accuracy = evaluateMap(readPly(request.map), surface, options);
     const std::string label = std::filesystem::path(request.map).stem();
     return format({reportOf(label, accuracy)}, request.format);
 }

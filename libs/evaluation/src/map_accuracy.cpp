@@ -43,21 +43,30 @@ std::vector<double> distancesToSurface(const Points& points, const PlyModel& sur
 /** Adds up how much of a surface is near the map. */
 class Coverage {
   public:
-    Coverage(const Points& map, double distance_m) : tree_(map), distance_m_(distance_m) {}
+    Coverage(const Points& map, double distance_m, const SurfaceSight* sight)
+        : tree_(map), distance_m_(distance_m), sight_(sight) {}
 
     void sample(const Eigen::Vector3d& p, double area) {
         ++samples_;
         total_ += area;
-        if (tree_.distanceTo(p) <= distance_m_) covered_ += area;
+        const bool covered = tree_.distanceTo(p) <= distance_m_;
+        if (covered) covered_ += area;
+        if (!sight_ || !sight_->sees(p)) return;
+        seen_ += area;
+        if (covered) seen_covered_ += area;
     }
 
     double share() const { return total_ > 0 ? covered_ / total_ : 0; }
+    std::optional<double> shareOfSeen() const {
+        return seen_ > 0 ? std::optional<double>(seen_covered_ / seen_) : std::nullopt;
+    }
     std::size_t samples() const { return samples_; }
 
   private:
     PointTree tree_;
     double distance_m_;
-    double covered_ = 0, total_ = 0;
+    const SurfaceSight* sight_;
+    double covered_ = 0, total_ = 0, seen_covered_ = 0, seen_ = 0;
     std::size_t samples_ = 0;
 };
 
@@ -71,10 +80,11 @@ MapAccuracy evaluateMap(const PlyModel& map, const PlyModel& surface,
     MapAccuracy accuracy;
     accuracy.distance_m = statisticsOf(distances_m);
     accuracy.distance_95_m = percentileOf(distances_m, 0.95);
-    Coverage coverage(points, options.completeness_distance_m);
+    Coverage coverage(points, options.completeness_distance_m, options.sight);
     forEachSurfaceSample(surface, options.sample_spacing_m,
                          [&](const Eigen::Vector3d& p, double area) { coverage.sample(p, area); });
     accuracy.completeness = coverage.share();
+    accuracy.completeness_of_seen = coverage.shareOfSeen();
     accuracy.surface_samples = coverage.samples();
     return accuracy;
 }

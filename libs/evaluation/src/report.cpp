@@ -85,6 +85,10 @@ Report reportOf(const std::string& map, const MapAccuracy& accuracy) {
     addStatistics(distance, "m", accuracy.distance_m, report.figures);
     report.figures.push_back({distance + ".95_percent", accuracy.distance_95_m, "m"});
     report.figures.push_back({"completeness", 100 * accuracy.completeness, "%", 2});
+    if (accuracy.completeness_of_seen) {
+        report.figures.push_back(
+            {"completeness_of_seen", 100 * *accuracy.completeness_of_seen, "%", 2});
+    }
     return report;
 }
 

@@ -121,5 +121,44 @@ TEST(MapAccuracy, refusesAnEmptyMapAndDistancesThatAreNone) {
     EXPECT_THROW(evaluateMap(square(), square(), options), Error);
 }
 
+/** Looking straight down from above the middle of the square. */
+Trajectory aboveAt(double height_m) {
+    Trajectory poses(1);
+    poses[0].T_world_cam.R = Eigen::Vector3d(1, -1, -1).asDiagonal();
+    poses[0].T_world_cam.t = {0.5, 0.5, height_m};
+    return poses;
+}
+
+TEST(SurfaceSight, endsAtTheImageTheRangeAndWhatStandsBefore) {
+    PlyModel surface = square();
+    surface.vertices.insert(surface.vertices.end(),
+                            {{0, 0, 0.5f}, {0.4f, 0, 0.5f}, {0, 0.4f, 0.5f}});
+    surface.triangles.push_back({4, 5, 6});  // hides a corner
+    const SurfaceSight sight(surface, Camera(), aboveAt(2));
+    EXPECT_TRUE(sight.sees({0.5, 0.5, 0}));
+    EXPECT_TRUE(sight.sees({0.1, 0.1, 0.5}));
+    EXPECT_FALSE(sight.sees({0.05, 0.05, 0}));
+    EXPECT_FALSE(SurfaceSight(surface, Camera(), aboveAt(6)).sees({0.5, 0.5, 0}));
+    EXPECT_FALSE(SurfaceSight(surface, Camera(), aboveAt(0.5)).sees({0.99, 0.5, 0}));
+    EXPECT_THROW(SurfaceSight(gridAt(0), Camera(), aboveAt(2)), Error);
+}
+
+TEST(MapAccuracy, completenessOfSeenLeavesOutWhatWasHidden) {
+    PlyModel surface = square();
+    for (const auto& vertex : square().vertices) {
+        surface.vertices.push_back(vertex - Eigen::Vector3f(0, 0, 0.3f));
+    }
+    surface.triangles.push_back({4, 5, 6});
+    surface.triangles.push_back({4, 6, 7});
+    const SurfaceSight sight(surface, Camera(), aboveAt(3));
+    MapAccuracyOptions options;
+    options.sight = &sight;
+    const auto accuracy = evaluateMap(gridAt(0), surface, options);
+    EXPECT_NEAR(accuracy.completeness, 0.5, 1e-6);
+    ASSERT_TRUE(accuracy.completeness_of_seen);
+    EXPECT_NEAR(*accuracy.completeness_of_seen, 1, 1e-6);
+    EXPECT_FALSE(evaluateMap(gridAt(0), surface).completeness_of_seen);
+}
+
 }  // namespace
 }  // namespace rgbd_graphslam

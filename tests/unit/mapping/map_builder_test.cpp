@@ -199,7 +199,13 @@ TEST_F(MapBuilder, everyFileIsWrittenAndReadsBack) {
     const auto points = std::dynamic_pointer_cast<mrpt::opengl::CPointCloudColoured>(
         scene.getByName(scene_names::points));
     ASSERT_TRUE(points);
-    EXPECT_EQ(points->size(), summary.points);
+    ASSERT_EQ(points->size(), summary.points);
+    const PointMap saved = loadPly(out + "/points.ply");
+    for (std::size_t i = 0; i < saved.size(); ++i) {
+        const mrpt::img::TColor color =
+            points->getPointColor(i);  // the fast one gives blue as green
+        ASSERT_EQ((std::array{color.R, color.G, color.B}), saved[i].rgb) << i;
+    }
     const auto loops =
         std::dynamic_pointer_cast<mrpt::opengl::CSetOfLines>(scene.getByName(scene_names::loops));
     ASSERT_TRUE(loops);

@@ -156,8 +156,10 @@ TEST_F(MapFiles, pcdHasOneRecordAPoint) {
     EXPECT_THAT(bytes.substr(0, data),
                 testing::HasSubstr("POINTS " + std::to_string(points.size()) + "\n"));
     const auto byte = [&](std::size_t i) { return static_cast<std::uint8_t>(bytes[data + i]); };
-    EXPECT_THAT((std::array{byte(14), byte(13), byte(12)}),
-                testing::ElementsAreArray(points[0].rgb));
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::size_t rgb = 16 * i + 12;  // blue first
+        ASSERT_EQ((std::array{byte(rgb + 2), byte(rgb + 1), byte(rgb)}), points[i].rgb) << i;
+    }
 }
 
 TEST_F(MapFiles, metricMapIsWhatMrptReads) {

@@ -65,6 +65,9 @@ struct SurfaceRequest {
 Similarity alignmentOf(const SurfaceRequest& request);
 
 struct MapRequest : SurfaceRequest {
+    /** Name or file; with it and `truth` completeness is told of what the camera saw, too. */
+    std::string camera;
+    SightOptions sight;
     MapAccuracyOptions options;
 };
 std::string runMap(const MapRequest& request);

@@ -1,10 +1,12 @@
 /** How well a map of points covers the true surface. */
 #pragma once
 #include <cstddef>
+#include <optional>
 
 #include "rgbd_graphslam/evaluation/alignment.h"
 #include "rgbd_graphslam/evaluation/ply.h"
 #include "rgbd_graphslam/evaluation/statistics.h"
+#include "rgbd_graphslam/evaluation/surface_sight.h"
 
 namespace rgbd_graphslam {
 
@@ -14,6 +16,8 @@ struct MapAccuracyOptions {
     double completeness_distance_m = 0.02;
     /** The surface's triangles are sampled no coarser than this for the completeness. */
     double sample_spacing_m = 0.01;
+    /** Tells what the camera saw of the surface; may be null. */
+    const SurfaceSight* sight = nullptr;
 };
 
 struct MapAccuracy {
@@ -24,6 +28,8 @@ struct MapAccuracy {
     /** Share of the surface, seen or not, by area (by number for a surface given as points), that
      * has a point of the map within the completeness distance. */
     double completeness = 0;
+    /** The same of what the camera saw; nothing when it is not told what that is. */
+    std::optional<double> completeness_of_seen;
     std::size_t surface_samples = 0;
 };
 
