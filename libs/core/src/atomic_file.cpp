@@ -1,9 +1,11 @@
 #include "rgbd_graphslam/core/atomic_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -14,9 +16,29 @@ namespace rgbd_graphslam {
 namespace fs = std::filesystem;
 namespace {
 
+const std::string temporary_prefix = ".tmp-";
+
 std::string temporaryName(const fs::path& path) {
-    const std::string name = ".tmp-" + std::to_string(getpid()) + "-" + path.filename().string();
+    const std::string name =
+        temporary_prefix + std::to_string(getpid()) + "-" + path.filename().string();
     return (path.parent_path() / name).string();
+}
+
+/** Whether it is a temporary file of a process that is no more. */
+bool isAbandoned(const std::string& name) {
+    if (name.rfind(temporary_prefix, 0) != 0) return false;
+    const char* const number = name.c_str() + temporary_prefix.size();
+    char* end = nullptr;
+    const long process = std::strtol(number, &end, 10);
+    return process > 0 && *end == '-' && kill(static_cast<pid_t>(process), 0) != 0 &&
+           errno == ESRCH;
+}
+
+void removeAbandoned(const fs::path& folder) {
+    std::error_code ignored;
+    for (const auto& entry : fs::directory_iterator(folder, ignored)) {
+        if (isAbandoned(entry.path().filename().string())) fs::remove(entry.path(), ignored);
+    }
 }
 
 /** Some file systems report a full disk only here. */
@@ -78,6 +100,7 @@ void makeWritableFolder(const std::string& path) {
     if (access(path.c_str(), W_OK) != 0) {
         throw Error("the folder '" + path + "' is not writable", "choose another output folder");
     }
+    removeAbandoned(path);
 }
 
 }  // namespace rgbd_graphslam

@@ -58,5 +58,20 @@ TEST_F(AtomicFile, missingFolderIsNamed) {
     }
 }
 
+TEST(MakeWritableFolder, removesWhatKilledProcessesLeft) {
+    const fs::path folder = fs::temp_directory_path() / ("abandoned-" + std::to_string(getpid()));
+    fs::create_directories(folder);
+    const std::string own = ".tmp-" + std::to_string(getpid()) + "-points.ply";
+    const std::string abandoned = ".tmp-2000000000-points.ply";  // beyond Linux's greatest number
+    for (const std::string& name : {own, abandoned, std::string(".tmp-notes")}) {
+        std::ofstream(folder / name) << "half";
+    }
+    makeWritableFolder(folder.string());
+    EXPECT_TRUE(fs::exists(folder / own));
+    EXPECT_TRUE(fs::exists(folder / ".tmp-notes"));
+    EXPECT_FALSE(fs::exists(folder / abandoned));
+    fs::remove_all(folder);
+}
+
 }  // namespace
 }  // namespace rgbd_graphslam

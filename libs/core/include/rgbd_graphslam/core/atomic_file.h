@@ -17,7 +17,7 @@ void writeAtomically(const std::string& path,
 /** writeAtomically for text. */
 void writeTextAtomically(const std::string& path, const std::string& text);
 
-/** Makes a folder with its parents and proves that files can be written in it.
+/** Makes a folder with its parents if it must, and removes what killed processes left half-written.
  *  \throws Error naming the folder */
 void makeWritableFolder(const std::string& path);
 

@@ -1,0 +1,197 @@
+/** A run of rgbd-slam that is killed or cannot write leaves every file either as it was or as the
+ *  finished run has it. */
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/mount.h>
+
+#include <chrono>
+#include <map>
+#include <random>
+
+#include "../support/run_program.h"
+#include "../support/textured_room.h"
+#include "rgbd_graphslam/dataset/rawlog_writer.h"
+
+namespace rgbd_graphslam {
+namespace {
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+constexpr int kills = 50;
+
+std::string inQuotes(const std::string& text) {
+    return "'" + text + "'";
+}
+
+void writeFilm(const std::string& rawlog, int frames) {
+    writeRawlog(rawlog, RawlogStorage::Embedded, [&](RawlogWriter& writer) {
+        for (const auto& frame : filmRoundTrip(frames, 0.03)) writer.write(*frame);
+    });
+}
+
+using Files = std::map<std::string, std::string>;
+
+/** Those that a run writes for good: no temporary ones, no socket. */
+Files filesIn(const std::string& folder) {
+    Files files;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (entry.is_regular_file() && name.rfind(".tmp-", 0) != 0) {
+            files[name] = readText(entry.path().string());
+        }
+    }
+    return files;
+}
+
+std::vector<std::string> temporariesIn(const std::string& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (name.rfind(".tmp-", 0) == 0) names.push_back(name);
+    }
+    return names;
+}
+
+/** Files that tell of times differ from run to run; what they end with says that they are whole. */
+bool isWholeOfItsKind(const std::string& name, const std::string& bytes) {
+    const auto endsWith = [&](const std::string& end) {
+        return bytes.size() >= end.size() &&
+               bytes.compare(bytes.size() - end.size(), end.size(), end) == 0;
+    };
+    return (name == "summary.json" && endsWith("\n}\n")) ||
+           (name == "report.html" && endsWith("</html>\n"));
+}
+
+/** A tmpfs, which only root can make. */
+class SmallDisk {
+  public:
+    SmallDisk(const std::string& path, std::size_t bytes) : path_(path) {
+        fs::create_directories(path);
+        const std::string size = "size=" + std::to_string(bytes);
+        mounted_ = mount("tmpfs", path.c_str(), "tmpfs", 0, size.c_str()) == 0;
+    }
+    ~SmallDisk() {
+        if (mounted_) umount2(path_.c_str(), MNT_DETACH);
+    }
+    SmallDisk(const SmallDisk&) = delete;
+    SmallDisk& operator=(const SmallDisk&) = delete;
+
+    bool mounted() const { return mounted_; }
+    bool makeReadOnly() const {
+        return mount("tmpfs", path_.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, nullptr) == 0;
+    }
+
+  private:
+    std::string path_;
+    bool mounted_ = false;
+};
+
+/** `out` holds an earlier run's results; `finished` those of the run that the faults meet. */
+class FaultOutputs : public ::testing::Test {
+  protected:
+    FaultOutputs() {
+        writeFilm(folder_ / "earlier.rawlog", 4);
+        writeFilm(folder_ / "a.rawlog", 8);
+        earlier_ = run("earlier.rawlog", "out");
+        const auto start = std::chrono::steady_clock::now();
+        finished_ = run("a.rawlog", "finished");
+        run_s_ = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+
+    std::string arguments(const std::string& rawlog, const std::string& out) const {
+        return inQuotes(RGBD_SOURCE_DIR "/ini/default.ini") + " " + inQuotes(folder_ / rawlog) +
+               " -o " + inQuotes(folder_ / out) +
+               " --quiet --set MapOptions.octree_resolution_m=0.1";
+    }
+    Files run(const std::string& rawlog, const std::string& out) const {
+        const ProgramResult result = runProgram("rgbd-slam", arguments(rawlog, out));
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        return filesIn(folder_ / out);
+    }
+    /** \return whether all of the finished run is there */
+    bool expectOldOrNew(const std::string& out) const {
+        const Files files = filesIn(folder_ / out);
+        std::size_t arrived = 0;
+        for (const auto& [name, bytes] : files) {
+            const auto before = earlier_.find(name), after = finished_.find(name);
+            const bool is_new = after != finished_.end() && bytes == after->second;
+            const bool is_old = before != earlier_.end() && bytes == before->second;
+            const bool is_other = !is_old && !is_new && isWholeOfItsKind(name, bytes);
+            EXPECT_TRUE(is_new || is_old || is_other) << name;
+            arrived += is_new || is_other;
+        }
+        for (const auto& file : earlier_) EXPECT_EQ(files.count(file.first), 1u) << file.first;
+        return arrived == finished_.size();
+    }
+    void restoreEarlier() const {
+        fs::remove_all(folder_ / "out");
+        for (const auto& [name, bytes] : earlier_) folder_.write("out/" + name, bytes);
+    }
+    void expectRefused(const ProgramResult& result, const std::string& reason) const {
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_THAT(result.err, HasSubstr("rgbd-slam: error: "));
+        EXPECT_THAT(result.err, HasSubstr(reason));
+    }
+    void killAfter(double delay_s) const {
+        const std::string command = inQuotes(RGBD_BINARY_DIR "/bin/rgbd-slam") + " " +
+                                    arguments("a.rawlog", "out") + " >/dev/null 2>&1 & sleep " +
+                                    std::to_string(delay_s) +
+                                    "; kill -KILL $! 2>/dev/null; wait $!";
+        ASSERT_NE(std::system(command.c_str()), -1);
+    }
+
+    TestFolder folder_;
+    Files earlier_, finished_;
+    double run_s_ = 0;
+};
+
+TEST_F(FaultOutputs, killedAtAnyMoment) {
+    std::mt19937 random(1);
+    int unfinished = 0;
+    for (int i = 0; i < kills; ++i) {
+        killAfter(run_s_ * (random() % 1000) / 1000);
+        unfinished += !expectOldOrNew("out");
+        restoreEarlier();
+    }
+    EXPECT_GT(unfinished, kills / 5) << "hardly a run was killed before its end";
+    killAfter(0.9 * run_s_);
+    run("a.rawlog", "out");
+    EXPECT_TRUE(expectOldOrNew("out"));
+    EXPECT_TRUE(temporariesIn(folder_ / "out").empty()) << "left over from a run that was killed";
+}
+
+TEST_F(FaultOutputs, fileSizeLimit) {
+    // SIGXFSZ ignored turns the shell's limit into an error of write().
+    const std::string command = inQuotes(RGBD_BINARY_DIR "/bin/rgbd-slam") + " " +
+                                arguments("a.rawlog", "out") + " 2>" + inQuotes(folder_ / "err");
+    const int status =
+        std::system(("bash -c \"trap '' XFSZ; ulimit -f 16; " + command + "\" >/dev/null").c_str());
+    expectRefused({WEXITSTATUS(status), "", readText(folder_ / "err")}, "cannot write '");
+    EXPECT_FALSE(expectOldOrNew("out"));
+    EXPECT_TRUE(temporariesIn(folder_ / "out").empty());
+}
+
+TEST_F(FaultOutputs, fullDisk) {
+    for (const std::size_t spare_bytes : {0u, 30000u, 100000u}) {
+        std::size_t size = spare_bytes;
+        for (const auto& [name, bytes] : earlier_) size += (bytes.size() / 4096 + 1) * 4096;
+        const SmallDisk disk(folder_ / "disk", size);
+        if (!disk.mounted()) GTEST_SKIP() << "making a small disk takes root";
+        fs::copy(folder_ / "out", folder_ / "disk", fs::copy_options::recursive);
+        expectRefused(runProgram("rgbd-slam", arguments("a.rawlog", "disk")), "No space left");
+        EXPECT_FALSE(expectOldOrNew("disk"));
+        EXPECT_TRUE(temporariesIn(folder_ / "disk").empty());
+    }
+}
+
+TEST_F(FaultOutputs, readOnlyFolder) {
+    const SmallDisk disk(folder_ / "disk", 64 << 20);
+    if (!disk.mounted()) GTEST_SKIP() << "making a read-only disk takes root";
+    fs::copy(folder_ / "out", folder_ / "disk", fs::copy_options::recursive);
+    ASSERT_TRUE(disk.makeReadOnly());
+    expectRefused(runProgram("rgbd-slam", arguments("a.rawlog", "disk")), "is not writable");
+    EXPECT_EQ(filesIn(folder_ / "disk"), earlier_);
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
