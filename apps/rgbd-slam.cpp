@@ -9,6 +9,7 @@
 namespace rgbd_graphslam {
 namespace {
 
+constexpr int limited_exit_code = 3;
 constexpr int interrupted_exit_code = 130;
 
 struct Arguments {
@@ -79,7 +80,8 @@ int run(const CLI::App& app, const Arguments& args) {
     if (args.profile) std::fputs((profileTable(report) + "\n").c_str(), stdout);
     std::fputs(resultTable(job, report).c_str(), stdout);
     if (!report.damage.empty()) throw Error(report.damage);
-    return report.interrupted ? interrupted_exit_code : 0;
+    if (report.interrupted) return interrupted_exit_code;
+    return report.limit.empty() ? 0 : limited_exit_code;
 }
 
 }  // namespace
@@ -87,8 +89,10 @@ int run(const CLI::App& app, const Arguments& args) {
 
 int main(int argc, char** argv) {
     using namespace rgbd_graphslam;
-    CLI::App app("RGB-D SLAM on an MRPT rawlog: trajectory, pose graph, points, octree, grid",
-                 "rgbd-slam");
+    CLI::App app(
+        "RGB-D SLAM on an MRPT rawlog: trajectory, pose graph, points, octree, grid. Ends "
+        "with 3 when a limit on keyframes or memory, 130 when Ctrl-C ended it early",
+        "rgbd-slam");
     Arguments args;
     declare(app, args);
     return runProgram(app, argc, argv, [&] { return run(app, args); });

@@ -111,6 +111,7 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"earlier_sessions", earlierJson(report)},
         {"interrupted", report.interrupted},
         {"damage", report.damage.empty() ? Json(nullptr) : Json(report.damage)},
+        {"limit", report.limit.empty() ? Json(nullptr) : Json(report.limit)},
         {"warnings", report.warnings},
         {"frames", report.frames},
         {"tracked", report.tracked},
@@ -133,7 +134,8 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"maps_wall_s", report.maps_wall_s},
         {"peak_memory_mb", report.peak_memory_mb},
         {"stages", stagesJson(report)}};
-    return summary.dump(2) + "\n";
+    // Names of files may be no UTF-8, which JSON cannot hold.
+    return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string resultTable(const SlamJob& job, const JobReport& report) {

@@ -107,6 +107,7 @@ class Job {
     void noteKeyframe(int keyframe);
     std::optional<StreamedFrame> nextFrame();
     bool finished() const;
+    void checkLimits();
     std::string progressNote() const;
 
     void describe();
@@ -150,6 +151,7 @@ void Job::track() {
         const auto frame = nextFrame();
         if (!frame) break;
         trackOne(*frame);
+        checkLimits();
         progress.expect(stream_.expectedFrames());
         progress.update(frame->index + 1, progressNote());
     }
@@ -159,7 +161,22 @@ void Job::track() {
 
 bool Job::finished() const {
     const auto most = static_cast<std::size_t>(job_.options.run.max_frames);
-    return interruption_.requested() || (most > 0 && report_.frames >= most);
+    return interruption_.requested() || !report_.limit.empty() ||
+           (most > 0 && report_.frames >= most);
+}
+
+void Job::checkLimits() {
+    const RunOptions& run = job_.options.run;
+    std::string reached;
+    if (run.max_keyframes > 0 && T_previous_keyframe_.size() >= std::size_t(run.max_keyframes)) {
+        reached = "max_keyframes = " + std::to_string(run.max_keyframes);
+    } else if (run.max_memory_mb > 0 && peakMemoryMb() >= run.max_memory_mb) {
+        reached = "max_memory_mb = " + std::to_string(run.max_memory_mb);
+    }
+    if (reached.empty()) return;
+    report_.limit =
+        "the limit " + reached + " is reached after " + std::to_string(report_.frames) + " frames";
+    sayWarning(report_.limit + ", the rest of the rawlog is left out; raise it in [RunOptions]");
 }
 
 std::optional<StreamedFrame> Job::nextFrame() {
@@ -352,6 +369,7 @@ void Job::writeMap() {
     writeTextAtomically(path("covisibility.csv"), covisibilityCsv(report_.covisibility_edges));
     const MapInputs inputs = mapInputs();
     if (inputs.keyframes.empty()) {
+        if (!report_.damage.empty()) throw Error(report_.damage);
         throw Error("none of the " + std::to_string(report_.frames) + " frames of '" + job_.rawlog +
                         "' could start a map",
                     "check depth scale and calibration, and that the camera sees texture");

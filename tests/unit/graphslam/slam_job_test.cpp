@@ -178,6 +178,21 @@ TEST_F(JobOnARawlog, maxFramesStopsEarly) {
     EXPECT_TRUE(report.damage.empty());
 }
 
+TEST_F(JobOnARawlog, limitsEndTheTrackingAndTheMapIsWritten) {
+    const std::size_t unlimited = runSlamJob(job_).keyframes;
+    ASSERT_GT(unlimited, 2u);
+    job_.options.run.max_keyframes = 2;
+    const JobReport few = runSlamJob(job_);
+    EXPECT_EQ(few.keyframes, 2u);
+    EXPECT_LT(few.frames, std::size_t{frames});
+    EXPECT_NE(few.limit.find("max_keyframes = 2"), std::string::npos) << few.limit;
+    EXPECT_EQ(readSparseMap(job_.out_folder + "/map.sparse").snapshot.keyframes.size(), 2u);
+
+    job_.options.run.max_keyframes = 0;
+    job_.options.run.max_memory_mb = 1;
+    EXPECT_NE(runSlamJob(job_).limit.find("max_memory_mb = 1"), std::string::npos);
+}
+
 TEST_F(JobOnARawlog, nothingToSeeIsAnErrorThatSaysSo) {
     auto film = filmRoundTrip(3, turn_rad);
     for (auto& frame : film) setColor(*frame, cv::Mat(240, 320, CV_8UC3, cv::Scalar::all(90)));

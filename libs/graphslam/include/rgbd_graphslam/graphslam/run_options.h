@@ -8,6 +8,8 @@ struct RunOptions : Options {
     int threads = 2;
     int frames_ahead = 8;
     int max_frames = 0;
+    int max_keyframes = 0;
+    int max_memory_mb = 0;
     bool dense_maps = true;
 
     const char* section() const override { return "RunOptions"; }

@@ -53,6 +53,8 @@ struct JobReport {
     bool interrupted = false;
     /** Why the job ended before the rawlog did, naming the frame; empty when it did not. */
     std::string damage;
+    /** Which of RunOptions' limits ended the tracking, and where; empty when none did. */
+    std::string limit;
 
     double framesPerSecond() const { return tracking_wall_s > 0 ? frames / tracking_wall_s : 0; }
     double cpuMsAFrame() const { return frames > 0 ? 1e3 * tracking_cpu_s / frames : 0; }
@@ -68,8 +70,8 @@ struct JobReport {
  *  only; extending writes everything, of both runs, but trajectory.txt and frames.csv have the
  *  frames of this rawlog.
  *
- *  A rawlog that is cut off or damaged, and SIGINT or SIGTERM, end the tracking; what was mapped by
- *  then is written and the report says so.
+ *  A rawlog that is cut off or damaged, SIGINT or SIGTERM, and the limits on keyframes and memory
+ *  end the tracking; what was mapped by then is written and the report says so.
  *  \throws Error when the rawlog has no RGB-D frame, nothing could be mapped or located, the
  * earlier map cannot be read or does not fit, or the folder cannot be written */
 JobReport runSlamJob(const SlamJob& job);
