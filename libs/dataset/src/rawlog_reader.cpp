@@ -10,6 +10,7 @@
 #include <cctype>
 #include <deque>
 #include <filesystem>
+#include <stdexcept>
 
 #include "gz_size.h"
 #include "rgbd_graphslam/core/error.h"
@@ -31,6 +32,25 @@ std::string firstMessage(const std::exception& e) {
         line.begin(), line.end(), [](unsigned char c) { return !std::isprint(c); }, '?');
     return line;
 }
+
+/** MRPT takes less than it asked for as all of it, and libjpeg ends the process at what an image
+ * cut off in this way is missing. */
+class StrictArchive : public mrpt::serialization::CArchive {
+  public:
+    explicit StrictArchive(mrpt::io::CFileGZInputStream& file) : file_(file) {}
+    std::string getArchiveDescription() const override { return file_.getStreamDescription(); }
+
+  protected:
+    std::size_t write(const void*, std::size_t) override { return 0; }
+    std::size_t read(void* bytes, std::size_t count) override {
+        const std::size_t there = file_.Read(bytes, count);
+        if (there > 0 && there < count) throw std::runtime_error("the file ends early");
+        return there;
+    }
+
+  private:
+    mrpt::io::CFileGZInputStream& file_;
+};
 
 }  // namespace
 
@@ -75,7 +95,7 @@ class RawlogReader::Implementation {
         const auto start = file_.getPosition();
         mrpt::serialization::CSerializable::Ptr entry;
         try {
-            entry = mrpt::serialization::archiveFrom(file_).ReadObject();
+            entry = StrictArchive(file_).ReadObject();
         } catch (const std::exception& e) {
             if (file_.getPosition() == start && whole()) return false;
             if (entries_ == 0) refuse("is not a rawlog");

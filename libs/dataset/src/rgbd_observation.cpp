@@ -1,5 +1,6 @@
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 
+#include <cmath>
 #include <cstring>
 #include <opencv2/imgproc.hpp>
 
@@ -25,6 +26,25 @@ void checkContents(const CObservation3DRangeScan& observation) {
     if (!observation.range_is_depth) refuse(observation, "ranges along rays instead of depth");
 }
 
+bool allFinite(const SE3& pose) {
+    return pose.R.allFinite() && pose.t.allFinite();
+}
+
+/** What a wrong number would spoil without a word. */
+void checkNumbers(const CObservation3DRangeScan& observation) {
+    const Camera camera = cameraOf(observation);
+    const bool has_focus = camera.fx > 0 && camera.fy > 0 && std::isfinite(camera.fx * camera.fy);
+    if (!has_focus || !std::isfinite(camera.cx + camera.cy)) {
+        refuse(observation, "its calibration has no usable fx, fy, cx, cy");
+    }
+    if (!(observation.rangeUnits > 0) || !std::isfinite(observation.rangeUnits)) {
+        refuse(observation, "its depth unit is not positive");
+    }
+    if (!allFinite(cameraOnRobot(observation))) {
+        refuse(observation, "its sensor pose is not finite");
+    }
+}
+
 void loadExternals(const CObservation3DRangeScan& observation) {
     try {
         observation.load();
@@ -48,6 +68,7 @@ cv::Mat sharedDepth(const CObservation3DRangeScan& observation) {
 
 RgbdImage toRgbdImage(const CObservation3DRangeScan::Ptr& observation) {
     checkContents(*observation);
+    checkNumbers(*observation);
     loadExternals(*observation);
     RgbdImage image;
     image.stamp_s = toSeconds(observation->timestamp);

@@ -145,8 +145,10 @@ class FrameStream::Implementation {
     void noteTruth(const mrpt::obs::CObservation& observation) {
         const auto* pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation);
         if (!pose || pose->sensorLabel != ground_truth_label) return;
+        const SE3 T_truth_robot = toSE3(pose->pose.mean);
+        if (!T_truth_robot.R.allFinite() || !T_truth_robot.t.allFinite()) return;
         const std::lock_guard<std::mutex> lock(truth_access_);
-        truth_.push_back({toSeconds(pose->timestamp), toSE3(pose->pose.mean)});
+        truth_.push_back({toSeconds(pose->timestamp), T_truth_robot});
     }
 
     void prepare(StreamedFrame& frame) {

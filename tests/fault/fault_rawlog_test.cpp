@@ -1,0 +1,270 @@
+/** Rawlogs that are cut, mixed up, or hold what no camera films: each ends in the results of what
+ *  can be used and one clear line, never in a crash. */
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationGPS.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#include "../support/run_program.h"
+#include "../support/textured_room.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/rawlog_reader.h"
+#include "rgbd_graphslam/dataset/rawlog_writer.h"
+
+namespace rgbd_graphslam {
+namespace {
+namespace fs = std::filesystem;
+using ::testing::AnyOf;
+using ::testing::HasSubstr;
+using Film = std::vector<mrpt::obs::CObservation3DRangeScan::Ptr>;
+
+class FaultRawlog : public ::testing::Test {
+  protected:
+    void write(const std::function<void(RawlogWriter&)>& fill,
+               RawlogStorage storage = RawlogStorage::Embedded) const {
+        writeRawlog(rawlog(), storage, fill);
+    }
+    void write(const Film& film) const {
+        write([&](RawlogWriter& writer) {
+            for (const auto& frame : film) writer.write(*frame);
+        });
+    }
+    std::string rawlog() const { return folder_ / "a.rawlog"; }
+
+    ProgramResult slam() const {
+        return runProgram("rgbd-slam", "'" RGBD_SOURCE_DIR "/ini/default.ini' '" + rawlog() +
+                                           "' -o '" + folder_ / "out" + "' --no-maps --quiet");
+    }
+    void expectFine(const std::string& said) const {
+        const ProgramResult result = slam();
+        EXPECT_EQ(result.exit_code, 0) << result.err;
+        EXPECT_THAT(result.out + result.err, HasSubstr(said));
+    }
+    void expectRefused(const std::string& reason) const {
+        const ProgramResult result = slam();
+        EXPECT_EQ(result.exit_code, 1);
+        EXPECT_THAT(result.err, HasSubstr("rgbd-slam: error: "));
+        EXPECT_THAT(result.err, HasSubstr(reason));
+        EXPECT_EQ(result.err.find("error: "), result.err.rfind("error: ")) << result.err;
+    }
+    /** \return observations before the end or the damage; `error` is "" when there is none */
+    std::size_t readAll(std::string& error) const {
+        std::size_t observations = 0;
+        error.clear();
+        try {
+            RawlogReader reader(rawlog());
+            while (reader.next()) ++observations;
+        } catch (const Error& e) {
+            error = e.what();
+        }
+        return observations;
+    }
+
+    TestFolder folder_;
+    const Film film_ = filmRoundTrip(6, 0.02);
+};
+
+class FaultCutRawlog : public FaultRawlog, public ::testing::WithParamInterface<RawlogStorage> {};
+
+TEST_P(FaultCutRawlog, atEveryPercentOfItsLength) {
+    write(
+        [&](RawlogWriter& writer) {
+            for (const auto& frame : film_) writer.write(*frame);
+        },
+        GetParam());
+    const std::string whole = readText(rawlog());
+    std::string error;
+    ASSERT_EQ(readAll(error), film_.size()) << error;
+    std::size_t before = 0;
+    for (int percent = 0; percent < 100; ++percent) {
+        folder_.write("a.rawlog", whole.substr(0, whole.size() * percent / 100));
+        const std::size_t observations = readAll(error);
+        const bool between_entries = GetParam() == RawlogStorage::Embedded &&
+                                     percent * film_.size() % 100 == 0 && observations > 0;
+        EXPECT_THAT(error, AnyOf(HasSubstr("cut off or damaged"), HasSubstr("is not a rawlog"),
+                                 HasSubstr("is empty"), between_entries ? "" : "never"))
+            << percent << " %";
+        EXPECT_LT(observations, film_.size());
+        EXPECT_GE(observations, before) << percent << " %";
+        before = observations;
+    }
+    EXPECT_GE(before, film_.size() - 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Storages, FaultCutRawlog,
+                         ::testing::Values(RawlogStorage::Embedded, RawlogStorage::Small),
+                         [](const auto& storage) {
+                             return storage.param == RawlogStorage::Small ? "packed" : "plain";
+                         });
+
+TEST_F(FaultRawlog, damagedLengthsEndInOneLine) {
+    write(Film{film_[0]});
+    const std::string whole = readText(rawlog());
+    for (std::size_t at = 0; at < 400; at += 23) {
+        std::string changed = whole;
+        changed.replace(at, 4, "\xff\xff\xff\x7f");
+        folder_.write("a.rawlog", changed);
+        const int status = std::system(
+            ("bash -c \"ulimit -d 2000000; '" RGBD_BINARY_DIR "/bin/rawlog2tum' '" + rawlog() +
+             "' '" + folder_ / "sequence" + "' --quiet 2>'" + folder_ / "err" + "'\" 2>/dev/null")
+                .c_str());
+        const std::string err = readText(folder_ / "err");
+        if (WEXITSTATUS(status) == 0) continue;  // the bytes were a number, not a length
+        EXPECT_THAT(err, HasSubstr("rawlog2tum: error: ")) << "byte " << at;
+        EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
+        fs::remove_all(folder_ / "sequence");
+    }
+}
+
+TEST_F(FaultRawlog, swappedFrames) {
+    Film film = film_;
+    std::swap(film[2], film[3]);
+    write(film);
+    expectFine("5 tracked");
+    expectFine("is not later than the one before");
+}
+
+TEST_F(FaultRawlog, stampsBackwards) {
+    write(Film(film_.rbegin(), film_.rend()));
+    expectFine("left out      5 frames");
+}
+
+TEST_F(FaultRawlog, anHoursGap) {
+    for (std::size_t i = 3; i < film_.size(); ++i) {
+        film_[i]->timestamp = toMrptTime(room_start_s + 3600 + double(i) * room_period_s);
+    }
+    write(film_);
+    expectFine("6 tracked");
+}
+
+TEST_F(FaultRawlog, otherSensorsBetween) {
+    write([&](RawlogWriter& writer) {
+        for (const auto& frame : film_) {
+            mrpt::obs::CObservation2DRangeScan laser;
+            mrpt::obs::CObservationGPS gps;
+            mrpt::obs::CObservationIMU imu;
+            for (mrpt::obs::CObservation* other :
+                 std::initializer_list<mrpt::obs::CObservation*>{&laser, &gps, &imu}) {
+                other->timestamp = frame->timestamp;
+                writer.write(*other);
+            }
+            writer.write(*frame);
+        }
+    });
+    expectFine("6 tracked");
+}
+
+TEST_F(FaultRawlog, noFrames) {
+    write([&](RawlogWriter& writer) {
+        mrpt::obs::CObservationIMU imu;
+        writer.write(imu);
+    });
+    expectRefused("has no RGB-D frame");
+}
+
+TEST_F(FaultRawlog, oneFrame) {
+    write(Film{film_[0]});
+    expectFine("1 tracked");
+    EXPECT_TRUE(fs::exists(folder_ / "out/map.sparse"));
+}
+
+TEST_F(FaultRawlog, blackImages) {
+    for (const auto& frame : film_) setColor(*frame, cv::Mat::zeros(240, 320, CV_8UC3));
+    write(film_);
+    expectRefused("none of the 6 frames");
+}
+
+TEST_F(FaultRawlog, noDepthReadings) {
+    for (const auto& frame : film_) setDepth(*frame, cv::Mat::zeros(240, 320, CV_16UC1));
+    write(film_);
+    expectRefused("none of the 6 frames");
+}
+
+TEST_F(FaultRawlog, aBlackFrameBetween) {
+    setColor(*film_[3], cv::Mat::zeros(240, 320, CV_8UC3));
+    write(film_);
+    expectFine("1 lost");
+}
+
+TEST_F(FaultRawlog, truthThatIsNoNumber) {
+    write([&](RawlogWriter& writer) {
+        for (const auto& frame : film_) {
+            mrpt::obs::CObservationRobotPose truth;
+            truth.sensorLabel = ground_truth_label;
+            truth.timestamp = frame->timestamp;
+            truth.pose.mean.x(std::numeric_limits<double>::quiet_NaN());
+            writer.write(truth);
+            writer.write(*frame);
+        }
+    });
+    const ProgramResult result = slam();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(result.out.find("nan"), std::string::npos) << result.out;
+}
+
+TEST_F(FaultRawlog, sensorPoseThatIsNoNumber) {
+    for (const auto& frame : film_) {
+        frame->sensorPose.x(std::numeric_limits<double>::quiet_NaN());
+    }
+    write(film_);
+    expectRefused("sensor pose");
+}
+
+TEST_F(FaultRawlog, calibrationThatIsNone) {
+    for (const auto& frame : film_) {
+        frame->cameraParamsIntensity.setIntrinsicParamsFromValues(0, 0, 0, 0);
+    }
+    write(film_);
+    expectRefused("calibration");
+}
+
+TEST_F(FaultRawlog, depthUnitThatIsNone) {
+    for (const auto& frame : film_) frame->rangeUnits = 0;
+    write(film_);
+    expectRefused("depth unit");
+}
+
+/** \return three frames of that size, grey squares 1 m away */
+Film filmOfSize(int width, int height) {
+    CameraSetup setup;
+    setup.camera = Camera{width, height, 0.8 * width, 0.8 * width, width / 2.0, height / 2.0, {}};
+    cv::Mat squares(24, 32, CV_8UC3), color;
+    cv::RNG(1).fill(squares, cv::RNG::UNIFORM, 0, 256);
+    cv::resize(squares, color, {width, height}, 0, 0, cv::INTER_NEAREST);
+    Film film;
+    for (int i = 0; i < 3; ++i) {
+        film.push_back(makeRgbdObservation(setup, room_start_s + i));
+        setColor(*film.back(), color);
+        setDepth(*film.back(), cv::Mat(height, width, CV_16UC1, cv::Scalar(5000)));
+    }
+    return film;
+}
+
+TEST_F(FaultRawlog, onePixelImages) {
+    write(filmOfSize(1, 1));
+    expectRefused("none of the 3 frames");
+}
+
+TEST_F(FaultRawlog, veryLargeImages) {
+    write(filmOfSize(4096, 3072));
+    expectFine("3 tracked");
+}
+
+TEST_F(FaultRawlog, nameThatIsNoUtf8) {
+    write(film_);
+    fs::rename(rawlog(), folder_ / "\xe4.rawlog");
+    const ProgramResult result = runProgram(
+        "rgbd-slam", "'" RGBD_SOURCE_DIR "/ini/default.ini' '" + folder_ / "\xe4.rawlog" +
+                         "' -o '" + folder_ / "out" + "' --no-maps --quiet");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(readText(folder_ / "out/summary.json"), HasSubstr("\"tracked\": 6"));
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
