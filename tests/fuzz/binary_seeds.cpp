@@ -1,0 +1,98 @@
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationRobotPose.h>
+#include <octomap/ColorOcTree.h>
+#include <octomap/OcTree.h>
+
+#include "../support/tum_folder.h"
+#include "fuzz_targets.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/rawlog_writer.h"
+#include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/graphslam/sparse_map_file.h"
+#include "rgbd_graphslam/mapping/map_files.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr std::size_t sparse_map_header_bytes = 24;
+
+mrpt::obs::CObservation3DRangeScan::Ptr smallFrame(double stamp_s) {
+    CameraSetup setup;
+    setup.camera = Camera{8, 6, 9, 9, 3.5, 2.5, {0.1, -0.2, 0, 0, 0.1}};
+    auto frame = makeRgbdObservation(setup, stamp_s);
+    setColor(*frame, cv::Mat(6, 8, CV_8UC3, cv::Scalar(10, 20, 30)));
+    setDepth(*frame, cv::Mat(6, 8, CV_16UC1, cv::Scalar(5000)));
+    return frame;
+}
+
+void writeSmallRawlog(const std::string& path) {
+    writeRawlog(path, RawlogStorage::Embedded, [](RawlogWriter& writer) {
+        mrpt::obs::CObservationRobotPose truth;
+        truth.sensorLabel = ground_truth_label;
+        writer.write(truth);
+        writer.write(*smallFrame(1));
+        mrpt::obs::CObservationIMU imu;
+        writer.write(imu);
+        writer.write(*smallFrame(2));
+    });
+}
+
+/** Three keyframes, one of them culled, with a landmark and a loop. */
+SparseMap smallMap() {
+    SlamMap map(1.25, 6);
+    Frame frame;
+    frame.keypoints.resize(2);
+    frame.descriptors.resize(2);
+    for (int k = 0; k < 3; ++k) {
+        map.addKeyframe(frame, {Eigen::Matrix3d::Identity(), {0.1 * k, 0, 0}});
+    }
+    map.addLandmark({0, 0, 1}, 0, 0);
+    map.cull(2, 1);
+    PoseEdge loop;
+    loop.kind = EdgeKind::Loop;
+    loop.from = 0;
+    loop.to = 1;
+    loop.information = Eigen::Matrix<double, 6, 6>::Identity();
+    return {takeSnapshot(map, Camera{}, 1.25, {loop}), SE3(), "hash", {{"/a.rawlog", 0}}};
+}
+
+template <class Tree>
+Tree smallTree() {
+    Tree tree(0.1);
+    for (const float x : {0.05f, 0.15f, 0.95f}) tree.updateNode(octomap::point3d(x, 0, 0), true);
+    tree.updateNode(octomap::point3d(0, 0.55f, 0), false);
+    return tree;
+}
+
+octomap::ColorOcTree smallColorTree() {
+    auto tree = smallTree<octomap::ColorOcTree>();
+    tree.setNodeColor(0.05f, 0, 0, 200, 100, 50);
+    tree.updateInnerOccupancy();
+    return tree;
+}
+
+}  // namespace
+
+std::string binarySeed(const std::string& target) {
+    const TestFolder folder;
+    const std::string path = folder / "seed";
+    if (target == "rawlog") {
+        writeSmallRawlog(path + ".rawlog");
+        return readText(path + ".rawlog");
+    }
+    if (target == "sparse_map") {
+        writeSparseMap(path, smallMap());
+        return readText(path).substr(sparse_map_header_bytes);
+    }
+    if (target == "binary_octree") {
+        saveBinaryOcTree(path, smallTree<octomap::OcTree>());
+        return readText(path);
+    }
+    if (target == "color_octree") {
+        saveColorOcTree(path, smallColorTree());
+        return readText(path);
+    }
+    throw Error("the corpus of '" + target + "' is text");
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,121 @@
+#include "fuzz_targets.h"
+
+#include <octomap/ColorOcTree.h>
+#include <octomap/OcTree.h>
+#include <zlib.h>
+
+#include <functional>
+
+#include "../support/tum_folder.h"
+#include "rgbd_graphslam/core/byte_stream.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/options.h"
+#include "rgbd_graphslam/dataset/camera_file.h"
+#include "rgbd_graphslam/dataset/rawlog_reader.h"
+#include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/dataset/tum_sequence.h"
+#include "rgbd_graphslam/features/feature_options.h"
+#include "rgbd_graphslam/graphslam/sparse_map_file.h"
+#include "rgbd_graphslam/mapping/map_files.h"
+#include "rgbd_graphslam/slam/slam_options.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+/** One folder a process: making one for each input would be most of the work. */
+const TestFolder& folder() {
+    static const TestFolder only;
+    return only;
+}
+
+std::string fileOf(const std::string& name, const std::string& bytes) {
+    folder().write(name, bytes);
+    return folder() / name;
+}
+
+void mayRefuse(const std::function<void()>& read) {
+    try {
+        read();
+    } catch (const Error&) {
+        return;
+    }
+}
+
+/** Reads all entries; one without usable images does not end the file. */
+void readWholeRawlog(const std::string& path) {
+    RawlogReader reader(path);
+    while (const auto observation = reader.next()) {
+        const auto frame =
+            std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation);
+        if (frame) mayRefuse([&] { toRgbdImage(frame); });
+    }
+}
+
+std::string sparseMapFile(const std::string& payload) {
+    ByteWriter header;
+    header.put<std::uint32_t>(1);
+    header.put(static_cast<std::uint64_t>(payload.size()));
+    header.put(static_cast<std::uint32_t>(
+        crc32_z(0, reinterpret_cast<const Bytef*>(payload.data()), payload.size())));
+    return "RGBDMAP\n" + header.bytes() + payload;
+}
+
+}  // namespace
+
+void fuzzTumList(const std::string& bytes) {
+    fileOf("sequence/depth.txt", bytes);
+    for (const char* list : {"rgb.txt", "groundtruth.txt", "accelerometer.txt"}) {
+        std::filesystem::remove(folder() / "sequence/groundtruth.txt");
+        fileOf("sequence/rgb.txt", "1.0 rgb/1.png\n");
+        fileOf(std::string("sequence/") + list, bytes);
+        mayRefuse([&] { stampOrder(readTumSequence(folder() / "sequence").color); });
+    }
+}
+
+void fuzzIni(const std::string& bytes) {
+    mayRefuse([&] {
+        FeatureOptions features;
+        TrackerOptions tracker;
+        const IniFile ini = IniFile::fromFile(fileOf("settings.ini", bytes));
+        ini.loadKnown({&features});
+        ini.load({&features, &tracker});
+    });
+}
+
+void fuzzCameraIni(const std::string& bytes) {
+    mayRefuse([&] { toIniText(readCameraFile(fileOf("camera.ini", bytes))); });
+}
+
+void fuzzTrajectory(const std::string& bytes) {
+    mayRefuse([&] { toTumText(readTumTrajectory(fileOf("trajectory.txt", bytes))); });
+}
+
+void fuzzRawlog(const std::string& bytes) {
+    mayRefuse([&] { readWholeRawlog(fileOf("a.rawlog", bytes)); });
+}
+
+void fuzzSparseMap(const std::string& bytes) {
+    mayRefuse([&] { readSparseMap(fileOf("map.sparse", sparseMapFile(bytes))); });
+}
+
+void fuzzBinaryOcTree(const std::string& bytes) {
+    mayRefuse([&] { loadBinaryOcTree(fileOf("tree.bt", bytes)); });
+}
+
+void fuzzColorOcTree(const std::string& bytes) {
+    mayRefuse([&] { loadColorOcTree(fileOf("tree.ot", bytes)); });
+}
+
+const std::vector<NamedTarget>& fuzzTargets() {
+    static const std::vector<NamedTarget> targets = {{"tum_list", fuzzTumList},
+                                                     {"ini", fuzzIni},
+                                                     {"camera_ini", fuzzCameraIni},
+                                                     {"trajectory", fuzzTrajectory},
+                                                     {"rawlog", fuzzRawlog},
+                                                     {"sparse_map", fuzzSparseMap},
+                                                     {"binary_octree", fuzzBinaryOcTree},
+                                                     {"color_octree", fuzzColorOcTree}};
+    return targets;
+}
+
+}  // namespace rgbd_graphslam

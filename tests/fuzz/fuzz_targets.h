@@ -1,0 +1,34 @@
+/** What reads files from outside, each as a function of bytes. */
+#pragma once
+#include <string>
+#include <vector>
+
+namespace rgbd_graphslam {
+
+/** Reads the bytes as a file of its kind and returns, whatever they are, as long as the reader
+ *  takes them or refuses them with an Error; all else passes through. */
+using FuzzTarget = void (*)(const std::string& bytes);
+
+void fuzzTumList(const std::string& bytes);
+void fuzzIni(const std::string& bytes);
+void fuzzCameraIni(const std::string& bytes);
+void fuzzTrajectory(const std::string& bytes);
+/** Every observation, and the images of those that are RGB-D. */
+void fuzzRawlog(const std::string& bytes);
+/** The bytes are a map.sparse behind its check sum, which would keep all others out. */
+void fuzzSparseMap(const std::string& bytes);
+void fuzzBinaryOcTree(const std::string& bytes);
+void fuzzColorOcTree(const std::string& bytes);
+
+struct NamedTarget {
+    const char* name;
+    FuzzTarget run;
+};
+
+/** All of them, by the names of their corpora. */
+const std::vector<NamedTarget>& fuzzTargets();
+
+/** A small valid input of a target whose files are not text. \throws Error for another name */
+std::string binarySeed(const std::string& target);
+
+}  // namespace rgbd_graphslam

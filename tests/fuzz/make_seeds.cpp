@@ -1,0 +1,19 @@
+/** make_seeds FOLDER: writes the corpora of the targets whose files are not text. */
+#include <cstdio>
+
+#include "../support/tum_folder.h"
+#include "fuzz_targets.h"
+
+int main(int argc, char** argv) {
+    using namespace rgbd_graphslam;
+    if (argc != 2) {
+        std::fputs("usage: make_seeds FOLDER\n", stderr);
+        return 2;
+    }
+    for (const std::string target : {"rawlog", "sparse_map", "binary_octree", "color_octree"}) {
+        const std::filesystem::path folder = std::filesystem::path(argv[1]) / target;
+        std::filesystem::create_directories(folder);
+        std::ofstream(folder / "seed", std::ios::binary) << binarySeed(target);
+    }
+    return 0;
+}

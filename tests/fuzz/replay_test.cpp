@@ -1,0 +1,63 @@
+/** The fuzzers' corpora, and each of their files cut short and with single bytes changed, without
+ *  a fuzzer: runs with any compiler. */
+#include <gtest/gtest.h>
+
+#include "../support/tum_folder.h"
+#include "fuzz_targets.h"
+
+namespace rgbd_graphslam {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr std::size_t places = 60;  // of each file, evenly spread
+
+class FuzzReplay : public testing::TestWithParam<NamedTarget> {};
+
+std::vector<std::string> seedsOf(const std::string& target) {
+    const fs::path corpus = fs::path(RGBD_SOURCE_DIR) / "tests/fuzz/corpus" / target;
+    if (!fs::exists(corpus)) return {binarySeed(target)};
+    std::vector<std::string> seeds;
+    for (const auto& file : fs::directory_iterator(corpus)) {
+        seeds.push_back(readText(file.path().string()));
+    }
+    return seeds;
+}
+
+/** Calls `use` with the place of every byte, or of as many as there is time for. */
+template <class Use>
+void forEachPlace(const std::string& text, Use use) {
+    const std::size_t step = std::max<std::size_t>(1, text.size() / places);
+    for (std::size_t at = 0; at < text.size(); at += step) use(at);
+}
+
+TEST_P(FuzzReplay, everySeed) {
+    const auto seeds = seedsOf(GetParam().name);
+    ASSERT_FALSE(seeds.empty());
+    for (const std::string& seed : seeds) EXPECT_NO_THROW(GetParam().run(seed)) << seed;
+}
+
+TEST_P(FuzzReplay, cutAnywhere) {
+    for (const std::string& seed : seedsOf(GetParam().name)) {
+        forEachPlace(seed, [&](std::size_t at) {
+            EXPECT_NO_THROW(GetParam().run(seed.substr(0, at))) << "cut at byte " << at;
+        });
+    }
+}
+
+TEST_P(FuzzReplay, oneByteChangedAnywhere) {
+    for (const std::string& seed : seedsOf(GetParam().name)) {
+        forEachPlace(seed, [&](std::size_t at) {
+            for (const char byte : {'\0', '\xff', '-'}) {
+                std::string changed = seed;
+                changed[at] = byte;
+                EXPECT_NO_THROW(GetParam().run(changed)) << "byte " << at << " set to " << +byte;
+            }
+        });
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Corpora, FuzzReplay, testing::ValuesIn(fuzzTargets()),
+                         [](const auto& target) { return std::string(target.param.name); });
+
+}  // namespace
+}  // namespace rgbd_graphslam
