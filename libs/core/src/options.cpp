@@ -220,7 +220,11 @@ IniFile IniFile::fromText(const std::string& text, const std::string& name) {
     checkIsText(text, name);
     const auto origins = locateKeys(text, name);
     mrpt::config::CConfigFileMemory mrpt_ini;
-    mrpt_ini.setContent(text);
+    try {
+        mrpt_ini.setContent(text);
+    } catch (const std::exception& e) {  // MRPT's $env{} and $eval{}
+        throw Error("'" + name + "': " + e.what(), "mend or remove the line");
+    }
     IniFile ini;
     for (const auto& [path, origin] : origins) {
         const auto dot = path.find('.');

@@ -42,7 +42,11 @@ class CameraFile {
             throw Error("cannot read the camera file '" + path + "'",
                         "give fr1, fr2, fr3, ros or an ini file");
         }
-        config_.setContent(text.str());
+        try {
+            config_.setContent(text.str());
+        } catch (const std::exception& e) {  // MRPT's $env{} and $eval{}
+            refuse(e.what());
+        }
         if (!config_.sectionExists(section))
             refuse("has no section [" + std::string(section) + "]");
         checkKeys();
