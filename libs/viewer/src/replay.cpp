@@ -38,14 +38,10 @@ std::pair<double, double> timeSpan(const RunData& run) {
     return {run.trajectory.front().stamp_s, run.trajectory.back().stamp_s};
 }
 
-std::optional<SE3> poseAt(const Trajectory& trajectory, double stamp_s) {
+std::optional<SE3> poseNear(const Trajectory& trajectory, double stamp_s) {
     if (trajectory.empty()) return std::nullopt;
-    const std::size_t after = countUntil(trajectory, stamp_s);
-    if (after == 0) return trajectory.front().T_world_cam;
-    if (after == trajectory.size()) return trajectory.back().T_world_cam;
-    const StampedPose &a = trajectory[after - 1], &b = trajectory[after];
-    return interpolate(a.T_world_cam, b.T_world_cam,
-                       (stamp_s - a.stamp_s) / (b.stamp_s - a.stamp_s));
+    return poseAt(trajectory,
+                  std::clamp(stamp_s, trajectory.front().stamp_s, trajectory.back().stamp_s));
 }
 
 }  // namespace rgbd_graphslam

@@ -110,7 +110,7 @@ void RunScene::add(RecordingLoader::News news) {
 void RunScene::markNow(std::optional<double> stamp_s) {
     if (stamp_s == now_s_) return;
     now_s_ = stamp_s;
-    const auto pose = stamp_s ? poseAt(run_.trajectory, *stamp_s) : std::nullopt;
+    const auto pose = stamp_s ? poseNear(run_.trajectory, *stamp_s) : std::nullopt;
     renderer_.setLines(Part::NowCamera, pose ? frustumLines({{*stamp_s, *pose}}, camera_,
                                                             2 * frustumDepth(), now_color)
                                              : Vertices{});

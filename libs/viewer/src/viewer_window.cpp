@@ -265,7 +265,7 @@ void ViewerWindow::drawAll() {
 SceneView ViewerWindow::sceneView() {
     if (follow_camera_) {
         const auto [first, last] = timeSpan(scene_->run());
-        if (const auto pose = poseAt(scene_->run().trajectory, now_s_.value_or(last)))
+        if (const auto pose = poseNear(scene_->run().trajectory, now_s_.value_or(last)))
             camera_.target = pose->t;
     }
     scene_->markNow(now_s_);

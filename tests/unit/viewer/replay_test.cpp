@@ -41,10 +41,10 @@ TEST(Replay, beginsWithTheFirstFrameAndEndsWithEverything) {
 
 TEST(PoseAt, isBetweenItsNeighbours) {
     const Trajectory trajectory = tenSeconds().trajectory;
-    EXPECT_NEAR(poseAt(trajectory, 103.25)->t.x(), 3.25, 1e-12);
-    EXPECT_DOUBLE_EQ(poseAt(trajectory, 90)->t.x(), 0);
-    EXPECT_DOUBLE_EQ(poseAt(trajectory, 200)->t.x(), 10);
-    EXPECT_FALSE(poseAt({}, 1));
+    EXPECT_NEAR(poseNear(trajectory, 103.25)->t.x(), 3.25, 1e-12);
+    EXPECT_DOUBLE_EQ(poseNear(trajectory, 90)->t.x(), 0);
+    EXPECT_DOUBLE_EQ(poseNear(trajectory, 200)->t.x(), 10);
+    EXPECT_FALSE(poseNear({}, 1));
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ ReplayState replayAt(const RunData& run, double stamp_s);
 /** First and last stamp of the trajectory; zeros when it is empty. */
 std::pair<double, double> timeSpan(const RunData& run);
 
-/** Between the two poses around the stamp; the first or last one beyond the ends.
+/** poseAt() with the first or last pose beyond the ends.
  *  \return nothing when the trajectory is empty */
-std::optional<SE3> poseAt(const Trajectory& trajectory, double stamp_s);
+std::optional<SE3> poseNear(const Trajectory& trajectory, double stamp_s);
 
 }  // namespace rgbd_graphslam
