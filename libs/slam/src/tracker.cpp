@@ -98,7 +98,10 @@ std::optional<LocatedFrame> Tracker::track(const Frame& frame) {
         PoseSolution solution;
         const std::vector<int> landmarks = matchLast(frame, predicted, window, solution);
         if (solution.inliers < options_.tracker.min_inliers) continue;
-        if (auto located = trackLocalMap(frame, solution.T_cam_world, landmarks)) return located;
+        if (auto located =
+                trackLocalMap(frame, solution.T_cam_world, landmarks, PoseKernel::GemanMcClure)) {
+            return located;
+        }
     }
     return std::nullopt;
 }
@@ -168,13 +171,13 @@ std::vector<int> Tracker::matchLast(const Frame& frame, const SE3& predicted, do
 }
 
 std::optional<LocatedFrame> Tracker::trackLocalMap(const Frame& frame, const SE3& T_cam_world,
-                                                   const std::vector<int>& landmarks) {
+                                                   const std::vector<int>& landmarks,
+                                                   PoseKernel kernel) {
     LocatedFrame located;
     located.landmarks = landmarks;
     searchLocalLandmarks(frame, T_cam_world, located.landmarks);
     const auto found = collect(frame, located.landmarks, map_, options_.sensor);
-    const PoseSolution solution =
-        solvePose(camera_, found.matches, T_cam_world, PoseKernel::GemanMcClure);
+    const PoseSolution solution = solvePose(camera_, found.matches, T_cam_world, kernel);
     if (solution.inliers < options_.tracker.min_inliers) return std::nullopt;
     located.T_cam_world = solution.T_cam_world;
     located.inliers = solution.inliers;

@@ -34,9 +34,11 @@ class Tracker {
     std::optional<LocatedFrame> followLast(const Frame& frame, const SE3& predicted) const;
 
     /** Searches the landmarks around a pose and refines it; for a frame placed by other means.
-     *  \param landmarks known already, one a keypoint */
+     *  \param landmarks known already, one a keypoint
+     *  \param kernel Geman and McClure's for a pose that is good already */
     std::optional<LocatedFrame> trackLocalMap(const Frame& frame, const SE3& T_cam_world,
-                                              const std::vector<int>& landmarks);
+                                              const std::vector<int>& landmarks,
+                                              PoseKernel kernel = PoseKernel::Huber);
 
     /** Tells where the last frame was, after track() or other means.
      *  \param reference_keyframe that the pose is tied to
@@ -69,8 +71,8 @@ class Tracker {
     SlamMap& map_;
     std::optional<Last> last_;
     std::vector<int> landmarks_before_;  // of the frame before the last one
-    SE3 motion_;                // T_cam_lastcam of the last two frames
-    std::vector<int> visited_;  // one a landmark: search in which it was met last
+    SE3 motion_;                         // T_cam_lastcam of the last two frames
+    std::vector<int> visited_;           // one a landmark: search in which it was met last
     int search_ = 0;
 };
 
