@@ -223,7 +223,8 @@ std::optional<LoopCloser::Loop> LoopCloser::verify(int id, int candidate) {
     const Frame& frame = map_.keyframe(id).frame;
     const auto aligned = align(frame, candidate);
     if (!aligned) return std::nullopt;
-    const auto located = verifier_.trackLocalMap(frame, aligned->T_cam_world, aligned->landmarks);
+    const auto located = verifier_.trackLocalMap(frame, aligned->T_cam_world, aligned->landmarks,
+                                                 PoseKernel::GemanMcClure);
     if (!located || located->inliers < options_.loops.min_inliers) return std::nullopt;
     const auto matches = matchesOf(frame, located->landmarks, map_, options_.sensor);
     Loop loop;
