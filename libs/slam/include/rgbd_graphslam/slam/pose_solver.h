@@ -20,7 +20,8 @@ struct PoseSolution {
     /** One a match. */
     std::vector<bool> inlier;
     int inliers = 0;
-    /** Inverse covariance of the pose's left perturbation (m, rad in the camera frame). */
+    /** Inverse covariance of the pose's left perturbation (m, rad in the camera frame), were every
+     *  match as sure as its trust: less of it than noise alone would give. */
     Matrix6d information = Matrix6d::Zero();
 };
 
@@ -31,8 +32,11 @@ enum class PoseKernel { Huber, GemanMcClure };
 
 /** Minimises the robust cost of the whitened residuals over the pose by Gauss-Newton with
  *  Levenberg's damping, drops the matches beyond 95 % of chi-square, and minimises the Huber cost
- * of the others. \param initial T_cam_world to start from \param kernel of the first minimisation
- */
+ *  of the others.
+ *
+ *  \param initial T_cam_world to start from
+ *
+ *  \param kernel of the first minimisation */
 PoseSolution solvePose(const Camera& camera, const std::vector<PointMatch>& matches,
                        const SE3& initial, PoseKernel kernel = PoseKernel::Huber);
 
