@@ -2,7 +2,8 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-#include <cmath>
+
+#include "robust_kernel.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -12,20 +13,6 @@ using Matrix36d = Eigen::Matrix<double, 3, 6>;
 
 constexpr double least_relative_decrease = 1e-6;
 constexpr double most_damping = 1e8;
-
-struct Huber {
-    double half_cost, weight;
-    Huber(double chi2, double limit) {
-        if (chi2 <= limit) {
-            half_cost = 0.5 * chi2;
-            weight = 1;
-        } else {
-            const double r = std::sqrt(chi2), delta = std::sqrt(limit);
-            half_cost = delta * r - 0.5 * limit;
-            weight = delta / r;
-        }
-    }
-};
 
 /** A point's own block and its links to the free cameras that see it. */
 struct PointBlock {
@@ -105,7 +92,7 @@ class Adjuster {
         const Eigen::Vector3d p = pose * problem_.points[o.point];
         if (p.z() < nearest_depth_m) return;
         const Eigen::Vector3d r = residual(problem_.camera, p, o.measurement);
-        const double w = Huber(r.squaredNorm(), chi2Limit(o.measurement)).weight;
+        const double w = huber(r.squaredNorm(), chi2Limit(o.measurement)).weight;
         const Eigen::Matrix3d J_cam_point = residualJacobian(problem_.camera, p, o.measurement);
         const Eigen::Matrix3d J_point = J_cam_point * pose.R;
         block.H.noalias() += w * J_point.transpose() * J_point;
@@ -192,7 +179,7 @@ double bundleCost(const BundleProblem& problem) {
         const Eigen::Vector3d p = problem.T_cam_world[o.camera] * problem.points[o.point];
         if (p.z() < nearest_depth_m) continue;
         const double chi2 = residual(problem.camera, p, o.measurement).squaredNorm();
-        cost += Huber(chi2, chi2Limit(o.measurement)).half_cost;
+        cost += 0.5 * huber(chi2, chi2Limit(o.measurement)).cost;
     }
     return cost;
 }

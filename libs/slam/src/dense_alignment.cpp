@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "robust_kernel.h"
+
 namespace rgbd_graphslam {
 namespace {
 
@@ -143,8 +145,7 @@ class Level {
     }
 
     void add(double residual, const Vector6d& jacobian) {
-        const double weight =
-            std::abs(residual) > huber_sigmas ? huber_sigmas / std::abs(residual) : 1;
+        const double weight = huber(residual * residual, huber_sigmas * huber_sigmas).weight;
         hessian_.noalias() += weight * jacobian * jacobian.transpose();
         gradient_.noalias() += weight * residual * jacobian;
     }

@@ -1,7 +1,8 @@
 #include "rgbd_graphslam/slam/pose_solver.h"
 
 #include <Eigen/Cholesky>
-#include <cmath>
+
+#include "robust_kernel.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -15,22 +16,6 @@ struct NormalEquations {
     Vector6d b = Vector6d::Zero();
     double cost = 0;
 };
-
-/** Cost of a squared residual and the weight it gives. */
-struct Robust {
-    double cost, weight;
-};
-
-Robust huber(double chi2, double limit) {
-    if (chi2 <= limit) return {chi2, 1};
-    const double delta = std::sqrt(limit), r = std::sqrt(chi2);
-    return {2 * delta * r - limit, delta / r};
-}
-
-Robust gemanMcClure(double chi2, double limit) {
-    const double share = limit / (limit + chi2);
-    return {chi2 * share, share * share};
-}
 
 class Solver {
   public:
@@ -57,9 +42,9 @@ class Solver {
     }
 
   private:
-    Robust robust(const PointMatch& match, double chi2) const {
+    RobustCost robust(const PointMatch& match, double chi2) const {
         const double limit = chi2Limit(match.measurement);
-        Robust robust =
+        RobustCost robust =
             kernel_ == PoseKernel::Huber ? huber(chi2, limit) : gemanMcClure(chi2, limit);
         robust.cost *= match.trust;
         robust.weight *= match.trust;
@@ -79,7 +64,7 @@ class Solver {
         const Eigen::Vector3d p = pose * match.position;
         if (p.z() < nearest_depth_m) return;
         const Eigen::Vector3d r = residual(camera_, p, match.measurement);
-        const Robust robust_r = robust(match, r.squaredNorm());
+        const RobustCost robust_r = robust(match, r.squaredNorm());
         const Eigen::Matrix3d Jp = residualJacobian(camera_, p, match.measurement);
         Eigen::Matrix<double, 3, 6> J;
         J.leftCols<3>() = Jp;
