@@ -7,6 +7,7 @@
 
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/slam/map_encoding.h"
 
 namespace rgbd_graphslam {
 namespace {

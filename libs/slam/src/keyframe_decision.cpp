@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "rgbd_graphslam/slam/map_encoding.h"
+
 namespace rgbd_graphslam {
 namespace {
 
@@ -26,6 +28,18 @@ void KeyframeDecision::reset(const Keyframe& keyframe) {
     keyframe_ = keyframe.id;
     median_depth_m_ = medianDepth(keyframe.frame);
     most_inliers_ = 0;
+}
+
+void KeyframeDecision::save(ByteWriter& out) const {
+    out.putCount(keyframe_);
+    out.put(median_depth_m_);
+    out.put<std::int32_t>(most_inliers_);
+}
+
+void KeyframeDecision::load(ByteReader& in, std::size_t keyframes) {
+    keyframe_ = getIndex(in, std::max<std::size_t>(1, keyframes), "keyframe");
+    median_depth_m_ = getFinite(in);
+    most_inliers_ = in.get<std::int32_t>();
 }
 
 bool KeyframeDecision::wants(const SlamMap& map, const LocatedFrame& located,

@@ -17,6 +17,11 @@ class KeyframeDecision {
     /** Compares with this keyframe from now on. */
     void reset(const Keyframe& keyframe);
 
+    void save(ByteWriter& out) const;
+    /** \param keyframes there are
+     *  \throws DamagedBytes */
+    void load(ByteReader& in, std::size_t keyframes);
+
   private:
     const KeyframeOptions& options_;
     int keyframe_ = 0;

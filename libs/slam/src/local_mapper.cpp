@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rgbd_graphslam/slam/global_adjustment.h"
+#include "rgbd_graphslam/slam/map_encoding.h"
 #include "rgbd_graphslam/slam/matcher.h"
 #include "rgbd_graphslam/slam/thread_clock.h"
 #include "rgbd_graphslam/slam/triangulation.h"
@@ -23,6 +24,7 @@ constexpr int observers_that_make_redundant = 3;
 
 /** An adjustment at work: the problem and which part of the map each piece stands for. */
 struct LocalMapper::Job {
+    int newest = 0;  // keyframe around which is adjusted
     BundleProblem problem;
     std::vector<int> keyframes, landmarks;
     std::vector<int> observation_keyframe;
@@ -43,7 +45,10 @@ void LocalMapper::insert(int keyframe) {
     joinWithNeighbours(keyframe);
     cullLandmarks(keyframe);
     cullKeyframes(keyframe);
-    if (!options_.mapper.local_adjustment || keyframe == 0) return;
+    if (options_.mapper.local_adjustment && keyframe != 0) startAdjustment(keyframe);
+}
+
+void LocalMapper::startAdjustment(int keyframe) {
     pending_ = makeJob(keyframe);
     if (pending_->problem.observations.empty()) return pending_.reset();  // the first of its part
     Job* job = pending_.get();
@@ -62,6 +67,17 @@ double LocalMapper::handOver() {
     const double cpu_ms = pending_->cpu_ms;
     pending_.reset();
     return cpu_ms;
+}
+
+void LocalMapper::save(ByteWriter& out) const {
+    putNumbers(recent_, out);
+    putFlag(pending(), out);
+    if (pending()) out.putCount(pending_->newest);
+}
+
+void LocalMapper::load(ByteReader& in) {
+    recent_ = getNumbers(in, map_.landmarks().size());
+    if (getFlag(in)) startAdjustment(getIndex(in, map_.keyframes().size(), "keyframe"));
 }
 
 void LocalMapper::createFromDepth(int id) {
@@ -192,6 +208,7 @@ void LocalMapper::cullKeyframes(int id) {
 /** The newest keyframe and its best neighbours move; others that see the same points hold them. */
 std::unique_ptr<LocalMapper::Job> LocalMapper::makeJob(int id) const {
     auto job = std::make_unique<Job>();
+    job->newest = id;
     std::vector<int>& keyframes = job->keyframes;
     keyframes.push_back(id);
     for (const Covisibility& c : map_.covisible(id)) {

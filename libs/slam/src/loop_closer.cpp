@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "rgbd_graphslam/slam/map_encoding.h"
 #include "rgbd_graphslam/slam/matcher.h"
 #include "rgbd_graphslam/slam/ransac_alignment.h"
 
@@ -161,15 +162,34 @@ void LoopCloser::travelTo(int keyframe) {
     }
 }
 
-void LoopCloser::forgetCulled(int newest) {
-    for (int k = 0; k < newest; ++k) {
-        if (map_.keyframe(k).culled) index_.erase(k);
+void LoopCloser::forgetCulled() {
+    const std::vector<int>& culled = map_.culled();
+    for (; forgotten_ < culled.size(); ++forgotten_) index_.erase(culled[forgotten_]);
+}
+
+void LoopCloser::save(ByteWriter& out) const {
+    index_.save(out);
+    out.putCount(travelled_m_.size());
+    for (const double m : travelled_m_) out.put(m);
+    out.putCount(forgotten_);
+    out.putCount(loops_.size());
+    for (const PoseEdge& loop : loops_) put(loop, out);
+}
+
+void LoopCloser::load(ByteReader& in) {
+    index_.load(in);
+    travelled_m_.resize(in.getCount(sizeof(double)));
+    for (double& m : travelled_m_) m = getFinite(in);
+    forgotten_ = getIndex(in, map_.culled().size() + 1, "culled keyframe");
+    const std::size_t loops = in.getCount(edge_bytes);
+    for (std::size_t i = 0; i < loops; ++i) {
+        loops_.push_back(getEdge(in, map_.keyframes().size(), EdgeKind::Loop));
     }
 }
 
 std::vector<PoseEdge> LoopCloser::findLoops(int keyframe) {
     travelTo(keyframe);
-    forgetCulled(keyframe);
+    forgetCulled();
     std::vector<Loop> verified;
     for (const int candidate : candidatesFor(keyframe)) {
         if (auto loop = verify(keyframe, candidate)) verified.push_back(std::move(*loop));

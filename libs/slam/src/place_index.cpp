@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <iterator>
+#include <optional>
 
 #include "popcount.h"
+#include "rgbd_graphslam/slam/map_encoding.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -14,6 +17,7 @@ constexpr int descriptor_bits = 256;
 constexpr std::size_t leaf_capacity = 80;
 /** A bit that splits worse than this says too little. */
 constexpr double most_unbalanced = 0.3;
+constexpr std::size_t least_node_bytes = sizeof(std::int16_t) + sizeof(std::uint32_t);
 
 struct Entry {
     Descriptor descriptor;
@@ -120,6 +124,44 @@ struct PlaceIndex::Tree {
         return best;
     }
 
+    /** How the nodes divide; of the entries only how many are forgotten. */
+    void saveShape(ByteWriter& out, const std::vector<char>& erased) const {
+        out.putCount(nodes.size());
+        for (const Node& node : nodes) {
+            out.put<std::int16_t>(node.bit);
+            if (node.bit >= 0) {
+                out.putCount(node.child[0]);
+                continue;
+            }
+            out.putCount(node.splits_at);
+            out.putCount(std::count_if(node.entries.begin(), node.entries.end(),
+                                       [&](const Entry& e) { return erased[e.keyframe] != 0; }));
+        }
+    }
+
+    /** \param forgotten stands for all entries that are */
+    void loadShape(ByteReader& in, const std::optional<Entry>& forgotten) {
+        nodes.resize(in.getCount(least_node_bytes));
+        for (std::size_t i = 0; i < nodes.size(); ++i) {
+            Node& node = nodes[i];
+            node.bit = in.get<std::int16_t>();
+            if (node.bit >= descriptor_bits) throw DamagedBytes("a bit beyond a descriptor");
+            if (node.bit >= 0) {
+                node.child[0] = getIndex(in, nodes.size() - 1, "node");
+                node.child[1] = node.child[0] + 1;
+                if (node.child[0] <= static_cast<int>(i)) throw DamagedBytes("a tree with a loop");
+                continue;
+            }
+            node.splits_at = in.get<std::uint32_t>();
+            const auto count = in.get<std::uint32_t>();
+            if (count > node.splits_at || (count > 0 && !forgotten)) {
+                throw DamagedBytes("a leaf with too much");
+            }
+            if (count > 0) node.entries.assign(count, *forgotten);
+        }
+        if (nodes.empty()) throw DamagedBytes("a tree without a root");
+    }
+
     int first_bit;
     std::vector<Node> nodes;
 };
@@ -152,7 +194,41 @@ void PlaceIndex::insertAll(const std::vector<std::vector<Descriptor>>& descripto
     for (auto& done : growing) done.get();
 }
 
+void PlaceIndex::save(ByteWriter& out) const {
+    out.putCount(erased_.size());
+    for (const char erased : erased_) putFlag(erased, out);
+    for (const auto& tree : trees_) tree->saveShape(out, erased_);
+    std::vector<Entry> known;  // every tree has the same
+    for (const Tree::Node& node : trees_.front()->nodes) {
+        std::copy_if(node.entries.begin(), node.entries.end(), std::back_inserter(known),
+                     [&](const Entry& e) { return !erased_[e.keyframe]; });
+    }
+    out.putCount(known.size());
+    for (const Entry& entry : known) {
+        put(entry.descriptor, out);
+        out.putCount(entry.keyframe);
+    }
+}
+
+void PlaceIndex::load(ByteReader& in) {
+    erased_.resize(in.getCount(1));
+    for (char& erased : erased_) erased = getFlag(in);
+    const auto first_erased = std::find(erased_.begin(), erased_.end(), true);
+    std::optional<Entry> forgotten;
+    if (first_erased != erased_.end()) {
+        forgotten = Entry{{}, static_cast<int>(first_erased - erased_.begin())};
+    }
+    for (auto& tree : trees_) tree->loadShape(in, forgotten);
+    const std::size_t known = in.getCount(sizeof(Descriptor) + sizeof(std::uint32_t));
+    for (std::size_t i = 0; i < known; ++i) {
+        const Descriptor descriptor = getDescriptor(in);
+        const Entry entry{descriptor, getIndex(in, erased_.size(), "keyframe")};
+        for (auto& tree : trees_) tree->nodes[tree->leafOf(descriptor)].entries.push_back(entry);
+    }
+}
+
 void PlaceIndex::erase(int keyframe) {
+    if (keyframe >= static_cast<int>(erased_.size())) erased_.resize(keyframe + 1, false);
     erased_[keyframe] = true;
 }
 

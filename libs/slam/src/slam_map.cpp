@@ -3,12 +3,24 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rgbd_graphslam/slam/map_encoding.h"
+
 namespace rgbd_graphslam {
 namespace {
 
 /** Nothing but the last frame and the adjustment at work remembers landmarks by id, and neither
  *  outlives the next keyframe. */
 constexpr std::size_t keyframes_of_rest = 2;
+
+/** Culled keyframes hang on others, which may be culled, but in the end on a living one. */
+void checkParents(const std::vector<Keyframe>& keyframes) {
+    for (const Keyframe& keyframe : keyframes) {
+        std::size_t links = 0;
+        for (const Keyframe* k = &keyframe; k->culled; k = &keyframes[k->parent]) {
+            if (++links > keyframes.size()) throw DamagedBytes("keyframes that hang on themselves");
+        }
+    }
+}
 
 }  // namespace
 
@@ -21,6 +33,44 @@ void SlamMap::restore(std::vector<Keyframe> keyframes, std::vector<Landmark> lan
     landmarks_ = std::move(landmarks);
     alive_ = landmarks_.size();
     votes_.assign(keyframes_.size(), 0);
+}
+
+void SlamMap::save(ByteWriter& out) const {
+    out.putCount(keyframes_.size());
+    for (const Keyframe& keyframe : keyframes_) put(keyframe, out);
+    out.putCount(landmarks_.size());
+    for (const Landmark& landmark : landmarks_) {
+        putFlag(landmark.alive, out);
+        if (landmark.alive) put(landmark, out);
+    }
+    out.putCount(dead_.size());
+    for (const auto& [landmark, keyframes] : dead_) {
+        out.putCount(landmark);
+        out.putCount(keyframes);
+    }
+    putNumbers(culled_, out);
+}
+
+void SlamMap::load(ByteReader& in, const Camera& camera) {
+    const std::size_t keyframes = in.getCount(keyframe_bytes);
+    for (std::size_t id = 0; id < keyframes; ++id) {
+        keyframes_.push_back(getKeyframe(in, static_cast<int>(id), keyframes, camera, levels()));
+    }
+    checkParents(keyframes_);
+    votes_.assign(keyframes, 0);
+    landmarks_.resize(in.getCount(1));
+    for (std::size_t id = 0; id < landmarks_.size(); ++id) {
+        landmarks_[id].alive = getFlag(in);
+        if (!landmarks_[id].alive) continue;
+        landmarks_[id] = getLandmark(in, static_cast<int>(id), keyframes_);
+        ++alive_;
+    }
+    const std::size_t dead = in.getCount(2 * sizeof(std::uint32_t));
+    for (std::size_t i = 0; i < dead; ++i) {
+        const int landmark = getIndex(in, landmarks_.size(), "landmark");
+        dead_.emplace_back(landmark, in.get<std::uint32_t>());
+    }
+    culled_ = getNumbers(in, keyframes);
 }
 
 int SlamMap::addKeyframe(Frame frame, const SE3& T_cam_world, int part, Link link) {
@@ -140,6 +190,7 @@ void SlamMap::cull(int id, int parent) {
     for (const int landmark : seen) {
         if (landmark != no_landmark) removeObservation(landmark, id);
     }
+    culled_.push_back(id);
     keyframe.culled = true;
     keyframe.parent = parent;
     keyframe.T_cam_parent = keyframe.T_cam_world * T_cam_world(parent).inverse();

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "rgbd_graphslam/slam/map_encoding.h"
 #include "rgbd_graphslam/slam/matcher.h"
 
 namespace rgbd_graphslam {
@@ -60,6 +61,33 @@ void Tracker::setLast(Frame frame, LocatedFrame located, int reference_keyframe,
     landmarks_before_ = last_ ? std::move(last_->landmarks) : std::vector<int>();
     last_ = Last{std::move(frame), std::move(located.landmarks), reference_keyframe,
                  located.T_cam_world * map_.T_cam_world(reference_keyframe).inverse()};
+}
+
+void Tracker::save(ByteWriter& out) const {
+    encodePose(motion_, out);
+    putNumbers(landmarks_before_, out);
+    putFlag(hasLast(), out);
+    if (!last_) return;
+    put(last_->frame, out);
+    putNumbers(last_->landmarks, out);
+    out.putCount(last_->reference_keyframe);
+    encodePose(last_->T_cam_reference, out);
+}
+
+void Tracker::load(ByteReader& in) {
+    motion_ = decodePose(in);
+    landmarks_before_ = getNumbers(in, map_.landmarks().size());
+    last_.reset();
+    if (!getFlag(in)) return;
+    Last last;
+    last.frame = getFrame(in, camera_, map_.levels());
+    last.landmarks = getNumbers(in, map_.landmarks().size());
+    if (last.landmarks.size() != last.frame.keypoints.size()) {
+        throw DamagedBytes("landmarks of a frame without their keypoints");
+    }
+    last.reference_keyframe = getIndex(in, map_.keyframes().size(), "keyframe");
+    last.T_cam_reference = decodePose(in);
+    last_ = std::move(last);
 }
 
 std::vector<FeatureView> Tracker::features() const {

@@ -8,6 +8,7 @@
 #include "rgbd_graphslam/features/frame_builder.h"
 #include "rgbd_graphslam/slam/local_mapper.h"
 #include "rgbd_graphslam/slam/loop_closer.h"
+#include "rgbd_graphslam/slam/map_encoding.h"
 #include "rgbd_graphslam/slam/stage_times.h"
 #include "rgbd_graphslam/slam/tracker.h"
 #include "rgbd_graphslam/slam/weak_tracker.h"
@@ -20,6 +21,8 @@ constexpr int final_iterations = 10;
 /** Of the points that an anchor had at best; with fewer the next frame follows another. */
 constexpr double anchor_share = 0.5;
 
+constexpr std::size_t record_bytes = sizeof(double) + 1 + 3 * 4 + pose_bytes;
+
 /** A frame as it is kept: tied to a keyframe, so that it moves with the map. */
 struct FrameRecord {
     double stamp_s = 0;
@@ -29,6 +32,30 @@ struct FrameRecord {
     SE3 T_cam_reference;
     std::optional<int> keyframe;
 };
+
+void put(const FrameRecord& record, ByteWriter& out) {
+    out.put(record.stamp_s);
+    out.put(static_cast<std::uint8_t>(record.origin));
+    out.put<std::int32_t>(record.inliers);
+    out.putCount(record.reference_keyframe);
+    encodePose(record.T_cam_reference, out);
+    out.put<std::int32_t>(record.keyframe.value_or(-1));
+}
+
+FrameRecord getRecord(ByteReader& in, std::size_t keyframes) {
+    FrameRecord record;
+    record.stamp_s = getFinite(in);
+    const auto origin = in.get<std::uint8_t>();
+    if (origin > static_cast<std::uint8_t>(FrameOrigin::Lost))
+        throw DamagedBytes("a frame of no kind");
+    record.origin = static_cast<FrameOrigin>(origin);
+    record.inliers = in.get<std::int32_t>();
+    record.reference_keyframe = getIndex(in, std::max<std::size_t>(1, keyframes), "keyframe");
+    record.T_cam_reference = decodePose(in);
+    const auto keyframe = in.get<std::int32_t>();
+    if (keyframe >= 0) record.keyframe = keyframe;
+    return record;
+}
 
 int keypointsWithDepth(const Frame& frame) {
     return static_cast<int>(std::count_if(frame.keypoints.begin(), frame.keypoints.end(),
@@ -86,6 +113,8 @@ class VisualSlam::Implementation {
           decision(options.keyframes) {}
 
     void restore(MapSnapshot snapshot, MapUse use);
+    void save(ByteWriter& out) const;
+    void load(ByteReader& in);
     TrackedFrame track(Frame frame);
     TrackedFrame view(const FrameRecord& record) const;
     void handOver();
@@ -135,6 +164,41 @@ void VisualSlam::Implementation::restore(MapSnapshot snapshot, MapUse use) {
     decision.reset(map.keyframes().back());
     frozen = use == MapUse::Localise;
     link = Link::None;
+}
+
+void VisualSlam::Implementation::save(ByteWriter& out) const {
+    map.save(out);
+    tracker.save(out);
+    mapper.save(out);
+    closer.save(out);
+    weak.save(out);
+    putFlag(anchor.has_value(), out);
+    if (anchor) anchor->save(out);
+    decision.save(out);
+    out.putCount(records.size());
+    for (const FrameRecord& record : records) put(record, out);
+    for (const int number : {anchor_inliers, frames_since_keyframe, astray}) {
+        out.put<std::int32_t>(number);
+    }
+    for (const bool flag : {frozen, placed}) putFlag(flag, out);
+    put(link, out);
+}
+
+void VisualSlam::Implementation::load(ByteReader& in) {
+    map.load(in, camera);
+    tracker.load(in);
+    mapper.load(in);
+    closer.load(in);
+    weak.load(in);
+    if (getFlag(in)) anchor.emplace(options, camera, map).load(in);
+    decision.load(in, map.keyframes().size());
+    records.resize(in.getCount(record_bytes));
+    for (FrameRecord& record : records) record = getRecord(in, map.keyframes().size());
+    for (int* number : {&anchor_inliers, &frames_since_keyframe, &astray}) {
+        *number = in.get<std::int32_t>();
+    }
+    for (bool* flag : {&frozen, &placed}) *flag = getFlag(in);
+    link = getLink(in);
 }
 
 TrackedFrame VisualSlam::Implementation::track(Frame frame) {
@@ -417,6 +481,14 @@ const std::vector<PoseEdge>& VisualSlam::loops() const {
 
 std::vector<FeatureView> VisualSlam::features() const {
     return impl_->tracker.features();
+}
+
+void VisualSlam::save(ByteWriter& out) const {
+    impl_->save(out);
+}
+
+void VisualSlam::load(ByteReader& in) {
+    impl_->load(in);
 }
 
 std::vector<VisualSlam::StageTime> VisualSlam::stageTimes() const {

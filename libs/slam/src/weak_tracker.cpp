@@ -1,6 +1,7 @@
 #include "rgbd_graphslam/slam/weak_tracker.h"
 
 #include "rgbd_graphslam/slam/dense_alignment.h"
+#include "rgbd_graphslam/slam/map_encoding.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -15,6 +16,52 @@ constexpr double longest_inertia_s = 0.2;
 constexpr double longest_blind_s = 1.0;
 constexpr double least_depth_share = 0.25;
 
+void put(const std::vector<float>& pixels, ByteWriter& out) {
+    out.putCount(pixels.size());
+    for (const float pixel : pixels) out.put(pixel);
+}
+
+std::vector<float> getPixels(ByteReader& in, std::size_t count) {
+    constexpr float largest = 1e6;
+    std::vector<float> pixels(in.getCount(sizeof(float)));
+    if (pixels.size() != count) throw DamagedBytes("an image of another size");
+    for (float& pixel : pixels) pixel = getFloat(in, largest);
+    return pixels;
+}
+
+void put(const DenseView& view, ByteWriter& out) {
+    putFlag(view.empty(), out);
+    if (view.empty()) return;
+    put(view.camera, out);
+    put(view.grey, out);
+    put(view.depth_m, out);
+}
+
+DenseView getView(ByteReader& in) {
+    DenseView view;
+    if (getFlag(in)) return view;
+    view.camera = getCamera(in);
+    const std::size_t pixels = std::size_t(view.camera.width) * view.camera.height;
+    view.grey = getPixels(in, pixels);
+    view.depth_m = getPixels(in, pixels);
+    return view;
+}
+
+void put(const DeadReckoning& reckoning, ByteWriter& out) {
+    const auto& [T_odometry_cam, R_gyroscope_cam] = reckoning;
+    putFlag(T_odometry_cam.has_value(), out);
+    if (T_odometry_cam) encodePose(*T_odometry_cam, out);
+    putFlag(R_gyroscope_cam.has_value(), out);
+    if (R_gyroscope_cam) encodePose({*R_gyroscope_cam, Eigen::Vector3d::Zero()}, out);
+}
+
+DeadReckoning getReckoning(ByteReader& in) {
+    DeadReckoning reckoning;
+    if (getFlag(in)) reckoning.T_odometry_cam = decodePose(in);
+    if (getFlag(in)) reckoning.R_gyroscope_cam = decodePose(in).R;
+    return reckoning;
+}
+
 }  // namespace
 
 void WeakTracker::restart(const Frame& frame, const SE3& T_last_cam) {
@@ -28,6 +75,20 @@ void WeakTracker::accept(const Frame& frame, const SE3& T_last_cam) {
     motion_ = {orthonormalised(T_last_cam.R), T_last_cam.t};
     last_reckoning_ = frame.reckoning;
     last_stamp_s_ = frame.stamp_s;
+}
+
+void WeakTracker::save(ByteWriter& out) const {
+    put(anchor_, out);
+    put(last_reckoning_, out);
+    for (const SE3& pose : {T_anchor_last_, motion_}) encodePose(pose, out);
+    for (const double stamp_s : {last_stamp_s_, last_fixed_s_}) out.put(stamp_s);
+}
+
+void WeakTracker::load(ByteReader& in) {
+    anchor_ = getView(in);
+    last_reckoning_ = getReckoning(in);
+    for (SE3* pose : {&T_anchor_last_, &motion_}) *pose = decodePose(in);
+    for (double* stamp_s : {&last_stamp_s_, &last_fixed_s_}) *stamp_s = getFinite(in);
 }
 
 std::optional<SE3> WeakTracker::follow(const Frame& frame) {

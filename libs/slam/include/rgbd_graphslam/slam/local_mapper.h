@@ -28,6 +28,13 @@ class LocalMapper {
      *  \return CPU ms that the adjustment took */
     double handOver();
 
+    /** What coming keyframes depend on. */
+    void save(ByteWriter& out) const;
+    /** Starts a pending adjustment again, for which the map must be loaded: nothing that it reads
+     *  has changed since it began.
+     *  \throws DamagedBytes */
+    void load(ByteReader& in);
+
     /** Looks for landmarks in a keyframe: a free keypoint there becomes an observation, an occupied
      *  one reveals a double landmark, which is fused. */
     void joinInto(int keyframe, std::vector<int> landmarks);
@@ -37,6 +44,7 @@ class LocalMapper {
 
   private:
     struct Job;
+    void startAdjustment(int keyframe);
     void createFromDepth(int keyframe);
     void triangulateWithNeighbours(int keyframe);
     void joinWithNeighbours(int keyframe);

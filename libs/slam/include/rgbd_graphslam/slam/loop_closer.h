@@ -17,6 +17,11 @@ class LoopCloser {
     /** Takes up the keyframes of a map that was kept, and its loops. */
     void restore(std::vector<PoseEdge> loops);
 
+    /** What coming keyframes depend on; not between findLoops() and correct(). */
+    void save(ByteWriter& out) const;
+    /** The map must be loaded. \throws DamagedBytes */
+    void load(ByteReader& in);
+
     const std::vector<PoseEdge>& loops() const { return loops_; }
 
     /** Compares a keyframe with all earlier ones and remembers it. Verified loops join poseGraph().
@@ -53,7 +58,7 @@ class LoopCloser {
         std::vector<int> landmarks;
     };
     void travelTo(int keyframe);
-    void forgetCulled(int newest);
+    void forgetCulled();
     double pathLength(int from, int to) const;
     Drift greatestDrift(int from, int to) const;
     Drift asked(const PoseEdge& loop) const;
@@ -77,6 +82,8 @@ class LoopCloser {
     Tracker verifier_;
     /** Length of the path up to each keyframe, m. */
     std::vector<double> travelled_m_;
+    /** How many of the map's culled keyframes the index has forgotten. */
+    std::size_t forgotten_ = 0;
     std::vector<PoseEdge> loops_;
     std::vector<Loop> unfused_;
 };

@@ -24,11 +24,6 @@ struct MapSnapshot {
 MapSnapshot takeSnapshot(const SlamMap& map, const Camera& camera, double scale_factor,
                          std::vector<PoseEdge> loops);
 
-/** A rotation matrix by rows, then the translation. */
-void encodePose(const SE3& pose, ByteWriter& out);
-/** \throws DamagedBytes when the bytes are no rigid motion */
-SE3 decodePose(ByteReader& in);
-
 void encode(const MapSnapshot& snapshot, ByteWriter& out);
 
 /** \throws DamagedBytes when the bytes end early, a number is not finite, an index names nothing,

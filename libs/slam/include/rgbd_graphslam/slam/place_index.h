@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "rgbd_graphslam/core/byte_stream.h"
 #include "rgbd_graphslam/features/descriptor.h"
 
 namespace rgbd_graphslam {
@@ -27,6 +28,11 @@ class PlaceIndex {
 
     /** The same for many, one list a keyframe from 0; the trees grow side by side. */
     void insertAll(const std::vector<std::vector<Descriptor>>& descriptors);
+
+    void save(ByteWriter& out) const;
+    /** The trees divide the descriptors as those that were saved.
+     *  \throws DamagedBytes */
+    void load(ByteReader& in);
 
     /** Forgets a keyframe; the memory of its descriptors is used again as their leaves fill up. */
     void erase(int keyframe);

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "rgbd_graphslam/core/byte_stream.h"
 #include "rgbd_graphslam/features/frame.h"
 #include "rgbd_graphslam/geometry/se3.h"
 
@@ -75,6 +76,12 @@ class SlamMap {
     /** Takes up a map that was kept. \param landmarks living ones, consistent with the keyframes */
     void restore(std::vector<Keyframe> keyframes, std::vector<Landmark> landmarks);
 
+    /** All of it, to the bit. */
+    void save(ByteWriter& out) const;
+    /** \param camera that the keyframes are of
+     *  \throws DamagedBytes */
+    void load(ByteReader& in, const Camera& camera);
+
     /** The frame's small image is dropped. \param part of the map that it belongs to */
     int addKeyframe(Frame frame, const SE3& T_cam_world, int part = 0, Link link = Link::Tracked);
     /** Moves a part as a whole and makes it one with another.
@@ -97,6 +104,8 @@ class SlamMap {
     const Landmark& landmark(int id) const { return landmarks_[id]; }
     Landmark& landmark(int id) { return landmarks_[id]; }
     std::size_t aliveLandmarks() const { return alive_; }
+    /** Keyframes that cull() took out, in that order. */
+    const std::vector<int>& culled() const { return culled_; }
 
     /** Of culled keyframes too. */
     SE3 T_cam_world(int keyframe) const;
@@ -126,6 +135,7 @@ class SlamMap {
     std::size_t alive_ = 0;
     /** Dead landmarks and the number of keyframes at their death. */
     std::deque<std::pair<int, std::size_t>> dead_;
+    std::vector<int> culled_;
     mutable std::vector<int> votes_;  // one a keyframe, all zero between calls
 };
 

@@ -48,6 +48,11 @@ class Tracker {
     /** Keypoints of the last frame, and where it missed landmarks of the frame before it. */
     std::vector<FeatureView> features() const;
 
+    /** What coming frames depend on. */
+    void save(ByteWriter& out) const;
+    /** The map must be loaded. \throws DamagedBytes */
+    void load(ByteReader& in);
+
     bool hasLast() const { return last_.has_value(); }
     void forget() { last_.reset(); }
 

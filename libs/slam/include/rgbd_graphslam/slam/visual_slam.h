@@ -132,6 +132,14 @@ class VisualSlam {
     /** The map for another run; finish() first. */
     MapSnapshot snapshot() const;
 
+    /** All that the poses to come depend on, so that a process that load()s it goes on to the same
+     *  bits; stage times do not. Not between findLoops() and correct(). Costs some 0.1 ms a living
+     *  keyframe. */
+    void save(ByteWriter& out) const;
+    /** For a SLAM that has seen no frame, made with the options and the camera of the saved one.
+     *  \throws DamagedBytes */
+    void load(ByteReader& in);
+
     struct StageTime {
         std::string stage;
         std::vector<double> cpu_ms, wall_ms;  // one a call

@@ -2,6 +2,7 @@
 #pragma once
 #include <optional>
 
+#include "rgbd_graphslam/core/byte_stream.h"
 #include "rgbd_graphslam/features/frame.h"
 
 namespace rgbd_graphslam {
@@ -18,6 +19,11 @@ class WeakTracker {
     /** \return T_last_cam, the motion since the last frame that restart() or follow() knew; nothing
      *          when no means works, after which the next frame is tried against the same one */
     std::optional<SE3> follow(const Frame& frame);
+
+    /** What coming frames depend on. */
+    void save(ByteWriter& out) const;
+    /** \throws DamagedBytes */
+    void load(ByteReader& in);
 
     /** The likeliest T_last_cam before the frame is looked at. */
     SE3 guess(const Frame& frame) const;
