@@ -8,7 +8,7 @@ packages=(
     build-essential cmake ninja-build ccache pkg-config
     libmrpt-dev libmrpt-nanogui-dev mrpt-apps
     libeigen3-dev libopencv-dev libceres-dev liboctomap-dev octomap-tools
-    libcli11-dev nlohmann-json3-dev libarchive-dev zlib1g-dev
+    libcli11-dev nlohmann-json3-dev libarchive-dev libjpeg-dev zlib1g-dev
     libcurl4-openssl-dev libnanoflann-dev gnuplot-nox
     libgl-dev libopengl-dev libegl1 libgl1-mesa-dri
     libgtest-dev libgmock-dev libbenchmark-dev python3 parallel

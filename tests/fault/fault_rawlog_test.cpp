@@ -13,6 +13,7 @@
 
 #include "../support/run_program.h"
 #include "../support/textured_room.h"
+#include "../support/unpacked.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
@@ -117,9 +118,46 @@ TEST_F(FaultRawlog, damagedLengthsEndInOneLine) {
         const std::string err = readText(folder_ / "err");
         if (WEXITSTATUS(status) == 0) continue;  // the bytes were a number, not a length
         EXPECT_THAT(err, HasSubstr("rawlog2tum: error: ")) << "byte " << at;
+        EXPECT_EQ(err.find("crashed"), std::string::npos) << "byte " << at;
         EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
         fs::remove_all(folder_ / "sequence");
     }
+}
+
+/** Asked for in one block this is more than any machine of today grants. */
+TEST_F(FaultRawlog, aSizeThatNoFrameHas) {
+    const std::string rows_and_columns("\xf0\0\0\0\x40\1\0\0", 8);
+    const std::string too_many("\xf0\xff\xff\x7f\x40\1\0\0", 8);
+    write(film_);
+    std::string bytes = readText(rawlog());
+    std::size_t at = 0;
+    for (int frame = 0; frame < 5; ++frame) at = bytes.find("CObservation3DRangeScan", at + 1);
+    at = bytes.find(rows_and_columns, at);
+    ASSERT_NE(at, std::string::npos);
+    folder_.write("a.rawlog", bytes.replace(at, too_many.size(), too_many));
+    std::string error;
+    EXPECT_EQ(readAll(error), 4u);
+    EXPECT_THAT(error, HasSubstr("damaged at entry 4"));
+    EXPECT_THAT(error, HasSubstr("more memory than there is"));
+    expectRefused("damaged at entry 4");
+    EXPECT_THAT(readText(folder_ / "out/summary.json"), HasSubstr("\"tracked\": 4"));
+}
+
+/** libjpeg ends the process, this test's too, where nobody takes its errors. */
+TEST_F(FaultRawlog, damagedJpegHeaders) {
+    constexpr std::size_t header_bytes = 620;
+    write([&](RawlogWriter& writer) { writer.write(*film_[0]); }, RawlogStorage::Small);
+    const std::string whole = unpacked(rawlog());
+    const std::size_t jpeg = whole.find(std::string("\xff\xd8\xff\xe0\0\x10JFIF", 10));
+    ASSERT_NE(jpeg, std::string::npos);
+    int refused = 0;
+    for (std::size_t at = jpeg; at < jpeg + header_bytes; at += 5) {
+        std::string changed = whole, error;
+        folder_.write("a.rawlog", changed.replace(at, 2, "\xff\x7f"));
+        readAll(error);
+        refused += !error.empty();
+    }
+    EXPECT_GT(refused, 20);
 }
 
 TEST_F(FaultRawlog, swappedFrames) {

@@ -4,6 +4,7 @@
 #include <octomap/OcTree.h>
 
 #include "../support/tum_folder.h"
+#include "../support/unpacked.h"
 #include "fuzz_targets.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
@@ -25,8 +26,8 @@ mrpt::obs::CObservation3DRangeScan::Ptr smallFrame(double stamp_s) {
     return frame;
 }
 
-void writeSmallRawlog(const std::string& path) {
-    writeRawlog(path, RawlogStorage::Embedded, [](RawlogWriter& writer) {
+void writeSmallRawlog(const std::string& path, RawlogStorage storage) {
+    writeRawlog(path, storage, [](RawlogWriter& writer) {
         mrpt::obs::CObservationRobotPose truth;
         truth.sensorLabel = ground_truth_label;
         writer.write(truth);
@@ -73,24 +74,25 @@ octomap::ColorOcTree smallColorTree() {
 
 }  // namespace
 
-std::string binarySeed(const std::string& target) {
+std::vector<std::string> binarySeeds(const std::string& target) {
     const TestFolder folder;
     const std::string path = folder / "seed";
     if (target == "rawlog") {
-        writeSmallRawlog(path + ".rawlog");
-        return readText(path + ".rawlog");
+        writeSmallRawlog(path + ".rawlog", RawlogStorage::Embedded);
+        writeSmallRawlog(path + "_jpeg.rawlog", RawlogStorage::Small);
+        return {readText(path + ".rawlog"), unpacked(path + "_jpeg.rawlog")};
     }
     if (target == "sparse_map") {
         writeSparseMap(path, smallMap());
-        return readText(path).substr(sparse_map_header_bytes);
+        return {readText(path).substr(sparse_map_header_bytes)};
     }
     if (target == "binary_octree") {
         saveBinaryOcTree(path, smallTree<octomap::OcTree>());
-        return readText(path);
+        return {readText(path)};
     }
     if (target == "color_octree") {
         saveColorOcTree(path, smallColorTree());
-        return readText(path);
+        return {readText(path)};
     }
     throw Error("the corpus of '" + target + "' is text");
 }

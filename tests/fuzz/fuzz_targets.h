@@ -28,7 +28,7 @@ struct NamedTarget {
 /** All of them, by the names of their corpora. */
 const std::vector<NamedTarget>& fuzzTargets();
 
-/** A small valid input of a target whose files are not text. \throws Error for another name */
-std::string binarySeed(const std::string& target);
+/** Small valid inputs of a target whose files are not text. \throws Error for another name */
+std::vector<std::string> binarySeeds(const std::string& target);
 
 }  // namespace rgbd_graphslam

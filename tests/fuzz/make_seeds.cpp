@@ -13,7 +13,10 @@ int main(int argc, char** argv) {
     for (const std::string target : {"rawlog", "sparse_map", "binary_octree", "color_octree"}) {
         const std::filesystem::path folder = std::filesystem::path(argv[1]) / target;
         std::filesystem::create_directories(folder);
-        std::ofstream(folder / "seed", std::ios::binary) << binarySeed(target);
+        int number = 0;
+        for (const std::string& seed : binarySeeds(target)) {
+            std::ofstream(folder / ("seed" + std::to_string(++number)), std::ios::binary) << seed;
+        }
     }
     return 0;
 }

@@ -15,7 +15,7 @@ class FuzzReplay : public testing::TestWithParam<NamedTarget> {};
 
 std::vector<std::string> seedsOf(const std::string& target) {
     const fs::path corpus = fs::path(RGBD_SOURCE_DIR) / "tests/fuzz/corpus" / target;
-    if (!fs::exists(corpus)) return {binarySeed(target)};
+    if (!fs::exists(corpus)) return binarySeeds(target);
     std::vector<std::string> seeds;
     for (const auto& file : fs::directory_iterator(corpus)) {
         seeds.push_back(readText(file.path().string()));

@@ -13,6 +13,7 @@
 #include <stdexcept>
 
 #include "gz_size.h"
+#include "reading_guards.h"
 #include "rgbd_graphslam/core/error.h"
 
 namespace rgbd_graphslam {
@@ -33,8 +34,7 @@ std::string firstMessage(const std::exception& e) {
     return line;
 }
 
-/** MRPT takes less than it asked for as all of it, and libjpeg ends the process at what an image
- * cut off in this way is missing. */
+/** MRPT takes less than it asked for as all of it. */
 class StrictArchive : public mrpt::serialization::CArchive {
   public:
     explicit StrictArchive(mrpt::io::CFileGZInputStream& file) : file_(file) {}
@@ -95,6 +95,7 @@ class RawlogReader::Implementation {
         const auto start = file_.getPosition();
         mrpt::serialization::CSerializable::Ptr entry;
         try {
+            const MemoryLimit limit(mostBytesOfBlock());
             entry = StrictArchive(file_).ReadObject();
         } catch (const std::exception& e) {
             if (file_.getPosition() == start && whole()) return false;
@@ -107,6 +108,14 @@ class RawlogReader::Implementation {
         ++entries_;
         queue(entry);
         return true;
+    }
+
+    /** Blocks hold what is in the file, twice at most while they grow; how much a gz file will
+     * unpack to is not known. */
+    std::size_t mostBytesOfBlock() const {
+        constexpr std::size_t always = std::size_t{64} << 20, never = std::size_t{1} << 30;
+        if (gz_size_) return never;
+        return std::min(never, always + 2 * (file_.getTotalBytesCount() - file_.getPosition()));
     }
 
     bool whole() const {

@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "number_text.h"
+#include "reading_guards.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 
@@ -46,6 +47,8 @@ void checkNumbers(const CObservation3DRangeScan& observation) {
 }
 
 void loadExternals(const CObservation3DRangeScan& observation) {
+    constexpr std::size_t most_bytes_of_block = std::size_t{1} << 30;
+    const MemoryLimit limit(most_bytes_of_block);
     try {
         observation.load();
         observation.intensityImage.forceLoad();
