@@ -21,12 +21,21 @@ void addPrinter(CLI::App& app, const std::string& option, std::string (*text)(co
         ->trigger_on_parse();
 }
 
+/** As typed, with its subcommand. */
+std::string commandOf(const CLI::App& app) {
+    std::string command = app.get_name();
+    for (const auto* chosen : app.get_subcommands()) command += " " + chosen->get_name();
+    return command;
+}
+
 /** Help and version come as exceptions, too; the library prints those. */
 int endOfParsing(const CLI::App& app, const CLI::ParseError& end) {
     if (end.get_exit_code() == 0) return app.exit(end);
     std::string problem = end.what();
+    const auto unknown = app.remaining(true);
+    if (!unknown.empty()) problem = "'" + unknown.front() + "' is not understood here";
     std::replace(problem.begin(), problem.end(), '\n', ' ');
-    throw Error(problem, "see " + app.get_name() + " --help");
+    throw Error(problem, "see " + commandOf(app) + " --help");
 }
 
 }  // namespace

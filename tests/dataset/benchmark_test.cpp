@@ -114,7 +114,7 @@ TEST_F(BenchmarkProgram, aBrokenSequenceFailsAloneAndIsTriedAgain) {
     };
     const auto first = run();
     EXPECT_EQ(first.exit_code, 1);
-    EXPECT_THAT(first.err, HasSubstr("rgbd-benchmark: error: 1 sequences failed"));
+    EXPECT_THAT(first.err, HasSubstr("rgbd-benchmark: error: 1 sequence failed"));
     EXPECT_THAT(resultOf("bad-out/cut").problem, HasSubstr("cannot unpack"));
     EXPECT_EQ(resultOf("bad-out/good").problem, "");
     EXPECT_THAT(readText(path("bad-out/report.md")), HasSubstr("| cut | – |"));

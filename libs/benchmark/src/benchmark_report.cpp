@@ -21,12 +21,9 @@ const std::vector<std::string> columns = {
 
 const char* const explanation =
     "ATE: of all poses after alignment without scale, as the TUM benchmark's tools compute it. "
-    "Best "
-    "published: the lowest RMSE found in papers for an RGB-D camera on the whole sequence. "
-    "Matched: "
-    "poses for which there is truth. RPE: over one second. CPU: all threads, tracking with "
-    "reading, "
-    "without maps. Peak: largest resident set of rgbd-slam.";
+    "Best published: the lowest RMSE found in papers for an RGB-D camera on the whole sequence. "
+    "Matched: poses for which there is truth. RPE: over one second. CPU: all threads, tracking "
+    "with reading, without maps. Peak: largest resident set of rgbd-slam.";
 
 std::string fixed(double value, int decimals) {
     char text[64];
@@ -72,7 +69,7 @@ std::string summaryOf(const std::vector<SequenceResult>& results,
         ++compared;
         if (*result.ate_rmse_m <= *known->best_ate_m) ++as_good;
     }
-    std::string text = std::to_string(results.size()) + " sequences";
+    std::string text = std::to_string(results.size()) + (results.size() == 1 ? " sequence" : " sequences");
     if (!version.empty()) text += " with rgbd-graphslam " + version;
     if (failed > 0) text += ", " + std::to_string(failed) + " failed";
     if (compared > 0) {

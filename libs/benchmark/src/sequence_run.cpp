@@ -69,14 +69,23 @@ void require(const ChildResult& child, const std::string& program) {
 class Run {
   public:
     Run(const FoundSequence& sequence, const SequenceRunOptions& options, fs::path folder)
-        : sequence_(sequence), options_(options), folder_(std::move(folder)) {}
+        : sequence_(sequence),
+          options_(options),
+          folder_(std::move(folder)),
+          imported_(folder_ / "sequence.rawlog") {}
+
+    ~Run() {
+        std::error_code ignored;
+        if (!options_.keep_rawlog) fs::remove(imported_, ignored);
+    }
+    Run(const Run&) = delete;
+    Run& operator=(const Run&) = delete;
 
     void run(SequenceResult& result) {
         const std::string rawlog = import(result);
         slam(rawlog, result);
         evaluate(rawlog, result);
         if (options_.maps) render();
-        if (rawlog != sequence_.source && !options_.keep_rawlog) fs::remove(rawlog);
     }
 
   private:
@@ -84,12 +93,11 @@ class Run {
 
     std::string import(SequenceResult& result) const {
         if (fs::path(sequence_.source).extension() == ".rawlog") return sequence_.source;
-        const std::string rawlog = folder_ / "sequence.rawlog";
-        const ChildResult child =
-            runChild({siblingProgram("tum2rawlog"), sequence_.source, rawlog}, log("tum2rawlog"));
+        const ChildResult child = runChild(
+            {siblingProgram("tum2rawlog"), sequence_.source, imported_}, log("tum2rawlog"));
         require(child, "tum2rawlog");
         result.import_s = child.wall_s;
-        return rawlog;
+        return imported_;
     }
 
     void slam(const std::string& rawlog, SequenceResult& result) const {
@@ -158,7 +166,7 @@ class Run {
 
     const FoundSequence& sequence_;
     const SequenceRunOptions& options_;
-    fs::path folder_;
+    fs::path folder_, imported_;
 };
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
+#include <set>
 
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/sequence_archive.h"
@@ -26,8 +27,7 @@ Kind kindOf(const fs::path& path) {
 /** The sequences below one root by name. */
 class Search {
   public:
-    Search(fs::path root, fs::path leave_out)
-        : root_(std::move(root)), leave_out_(std::move(leave_out)) {
+    Search(fs::path root, const fs::path& leave_out) : root_(std::move(root)), seen_{leave_out} {
         look(root_);
     }
 
@@ -40,21 +40,27 @@ class Search {
             const auto entry = std::make_pair(kind, path.string());
             const auto known = found.emplace(nameOf(path, kind), entry).first;
             known->second = std::min(known->second, entry);
-        } else if (fs::is_directory(path) && fs::weakly_canonical(path) != leave_out_) {
-            for (const auto& below : fs::directory_iterator(path)) look(below.path());
+        } else if (fs::is_directory(path) && seen_.insert(fs::canonical(path)).second) {
+            const auto skip = fs::directory_options::skip_permission_denied;
+            for (const auto& below : fs::directory_iterator(path, skip)) look(below.path());
         }
     }
 
     std::string nameOf(const fs::path& path, Kind kind) const {
-        fs::path name =
+        const fs::path name =
             path == root_ ? fs::weakly_canonical(path).filename() : path.lexically_relative(root_);
-        if (kind != Kind::Folder) name.replace_extension();
-        std::string text = name.string();
+        std::string text = kind == Kind::Folder ? name.string() : withoutEnding(name);
         std::replace(text.begin(), text.end(), '/', '_');
         return text;
     }
 
-    fs::path root_, leave_out_;
+    static std::string withoutEnding(fs::path name) {
+        const std::string unpacked = withoutArchiveEnding(name);
+        return unpacked != name ? unpacked : name.replace_extension().string();
+    }
+
+    fs::path root_;
+    std::set<fs::path> seen_;  // links can lead back
 };
 
 }  // namespace

@@ -16,18 +16,18 @@ namespace rgbd_graphslam {
 namespace fs = std::filesystem;
 namespace {
 
-const std::string temporary_prefix = ".tmp-";
-
-std::string temporaryName(const fs::path& path) {
-    const std::string name =
-        temporary_prefix + std::to_string(getpid()) + "-" + path.filename().string();
-    return (path.parent_path() / name).string();
+/** With the machine's name, as processes of several machines may write to one folder. */
+std::string temporaryPrefix() {
+    char host[256] = "";
+    gethostname(host, sizeof host - 1);
+    return std::string(".tmp-") + host + "-";
 }
 
-/** Whether it is a temporary file of a process that is no more. */
+/** Whether it is a temporary file or folder of a process of this machine that is no more. */
 bool isAbandoned(const std::string& name) {
-    if (name.rfind(temporary_prefix, 0) != 0) return false;
-    const char* const number = name.c_str() + temporary_prefix.size();
+    const std::string prefix = temporaryPrefix();
+    if (name.rfind(prefix, 0) != 0) return false;
+    const char* const number = name.c_str() + prefix.size();
     char* end = nullptr;
     const long process = std::strtol(number, &end, 10);
     return process > 0 && *end == '-' && kill(static_cast<pid_t>(process), 0) != 0 &&
@@ -37,7 +37,7 @@ bool isAbandoned(const std::string& name) {
 void removeAbandoned(const fs::path& folder) {
     std::error_code ignored;
     for (const auto& entry : fs::directory_iterator(folder, ignored)) {
-        if (isAbandoned(entry.path().filename().string())) fs::remove(entry.path(), ignored);
+        if (isAbandoned(entry.path().filename().string())) fs::remove_all(entry.path(), ignored);
     }
 }
 
@@ -63,6 +63,13 @@ class RemovedUnlessKept {
 };
 
 }  // namespace
+
+std::string temporaryName(const std::string& path) {
+    const fs::path final_path(path);
+    const std::string name =
+        temporaryPrefix() + std::to_string(getpid()) + "-" + final_path.filename().string();
+    return (final_path.parent_path() / name).string();
+}
 
 void writeAtomically(const std::string& path,
                      const std::function<bool(const std::string&)>& write) {

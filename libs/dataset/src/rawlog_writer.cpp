@@ -4,7 +4,6 @@
 #include <mrpt/io/CFileGZOutputStream.h>
 #include <mrpt/io/CFileOutputStream.h>
 #include <mrpt/serialization/CArchive.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
@@ -13,6 +12,7 @@
 #include "number_text.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/temporary_folder.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
 
@@ -105,29 +105,6 @@ class CompactWriter : public EmbeddedWriter {
     }
 
     fs::path images_;
-};
-
-/** A folder that is removed again unless it is moved to its final name. */
-class TemporaryFolder {
-  public:
-    explicit TemporaryFolder(const fs::path& final_path)
-        : final_(final_path),
-          path_(final_path.parent_path() /
-                (".tmp-" + std::to_string(getpid()) + "-" + final_path.filename().string())) {
-        makeWritableFolder(path_.string());
-    }
-    ~TemporaryFolder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    const fs::path& path() const { return path_; }
-    void moveToFinalName() const {
-        fs::remove_all(final_);
-        fs::rename(path_, final_);
-    }
-
-  private:
-    fs::path final_, path_;
 };
 
 bool holds(const std::string& path, std::uint64_t bytes) {

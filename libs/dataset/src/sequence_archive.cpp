@@ -2,12 +2,10 @@
 
 #include <archive.h>
 #include <archive_entry.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <memory>
 
-#include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/sequence_layout.h"
 
@@ -56,38 +54,34 @@ void unpack(const std::string& path, const fs::path& folder) {
     if (status != ARCHIVE_EOF) refuse(path, in.get());
 }
 
+/** Length of a known ending; 0 where there is none. */
+std::size_t archiveEndingOf(const std::string& path) {
+    for (const std::string ending : {".tgz", ".tar", ".tar.gz", ".tar.bz2", ".tar.xz", ".zip"}) {
+        const bool ends = path.size() > ending.size() &&
+                          path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
+        if (ends) return ending.size();
+    }
+    return 0;
+}
+
 }  // namespace
 
 bool isSequenceArchive(const std::string& path) {
-    const std::string ending = fs::path(path).extension().string();
-    if (!fs::is_regular_file(path)) return false;
-    for (const char* known : {".tgz", ".tar", ".gz", ".bz2", ".xz", ".zip"}) {
-        if (ending == known) return true;
-    }
-    return false;
+    return archiveEndingOf(path) > 0 && fs::is_regular_file(path);
+}
+
+std::string withoutArchiveEnding(const std::string& path) {
+    return path.substr(0, path.size() - archiveEndingOf(path));
 }
 
 UnpackedArchive::UnpackedArchive(const std::string& archive, const std::string& scratch)
-    : archive_(archive),
-      folder_((fs::path(scratch) / (".tmp-" + std::to_string(getpid()) + "-unpacked")).string()) {
-    makeWritableFolder(folder_);
-    try {
-        unpack(archive, folder_);
-    } catch (...) {
-        std::error_code ignored;
-        fs::remove_all(folder_, ignored);
-        throw;
-    }
-}
-
-UnpackedArchive::~UnpackedArchive() {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
+    : archive_(archive), folder_((fs::path(scratch) / "unpacked").string()) {
+    unpack(archive, folder_.path());
 }
 
 std::string UnpackedArchive::sequenceFolder() const {
-    if (layoutOf(folder_)) return folder_;
-    for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+    if (layoutOf(folder_.path())) return folder_.path();
+    for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
         if (layoutOf(entry.path().string())) return entry.path().string();
     }
     throw Error("there is no sequence in the archive '" + archive_ + "'",

@@ -16,6 +16,7 @@
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/progress.h"
+#include "rgbd_graphslam/core/temporary_folder.h"
 #include "rgbd_graphslam/dataset/camera_file.h"
 #include "rgbd_graphslam/dataset/depth_stamps.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
@@ -78,8 +79,9 @@ void appendVector(std::string& list, const char* header, double stamp_s,
 
 class Export {
   public:
-    Export(const std::string& rawlog_path, const std::string& folder, const ExportOptions& options)
-        : rawlog_path_(rawlog_path), folder_(folder), options_(options) {
+    /** \param folder empty; filled by run() */
+    Export(const std::string& rawlog_path, fs::path folder, const ExportOptions& options)
+        : rawlog_path_(rawlog_path), folder_(std::move(folder)), options_(options) {
         const RawlogInfo info = inspectRawlog(rawlog_path);
         if (!info.damage.empty()) throw Error(info.damage);
         if (info.rgbd_frames == 0) {
@@ -87,7 +89,8 @@ class Export {
         }
         first_stamp_s_ = info.first_stamp_s;
         frames_in_rawlog_ = info.rgbd_frames;
-        makeFolders();
+        makeWritableFolder((folder_ / "rgb").string());
+        makeWritableFolder((folder_ / "depth").string());
     }
 
     ExportReport run() {
@@ -108,15 +111,6 @@ class Export {
     }
 
   private:
-    void makeFolders() const {
-        if (fs::is_directory(folder_) && !fs::is_empty(folder_)) {
-            throw Error("the folder '" + folder_.string() + "' is not empty",
-                        "choose a new folder for the sequence");
-        }
-        makeWritableFolder((folder_ / "rgb").string());
-        makeWritableFolder((folder_ / "depth").string());
-    }
-
     bool inBounds(double stamp_s) const {
         const double after_s = stamp_s - first_stamp_s_;
         return after_s >= options_.from_s && after_s <= options_.to_s;
@@ -229,7 +223,19 @@ class Export {
 
 ExportReport exportTumSequence(const std::string& rawlog_path, const std::string& folder,
                                const ExportOptions& options) {
-    return Export(rawlog_path, folder, options).run();
+    if (fs::exists(folder) && !fs::is_directory(folder)) {
+        throw Error("cannot make the folder '" + folder + "': that is a file",
+                    "choose a new folder for the sequence");
+    }
+    if (fs::is_directory(folder) && !fs::is_empty(folder)) {
+        throw Error("the folder '" + folder + "' is not empty",
+                    "choose a new folder for the sequence");
+    }
+    const fs::path target = fs::absolute(folder).lexically_normal();
+    const TemporaryFolder made(target.has_filename() ? target : target.parent_path());
+    const ExportReport report = Export(rawlog_path, made.path(), options).run();
+    made.moveToFinalName();
+    return report;
 }
 
 }  // namespace rgbd_graphslam

@@ -1,7 +1,5 @@
 #include "rgbd_graphslam/dataset/unpacked_bag.h"
 
-#include <unistd.h>
-
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -192,20 +190,9 @@ bool isBag(const std::string& path) {
 }
 
 UnpackedBag::UnpackedBag(const std::string& bag, const std::string& scratch)
-    : scratch_((fs::path(scratch) / (".tmp-" + std::to_string(getpid()) + "-bag")).string()),
-      folder_((fs::path(scratch_) / fs::path(bag).stem()).string()) {
-    try {
-        Unpacking(bag, folder_).run();
-    } catch (...) {
-        std::error_code ignored;
-        fs::remove_all(scratch_, ignored);
-        throw;
-    }
-}
-
-UnpackedBag::~UnpackedBag() {
-    std::error_code ignored;
-    fs::remove_all(scratch_, ignored);
+    : scratch_((fs::path(scratch) / "unpacked").string()),
+      folder_((fs::path(scratch_.path()) / fs::path(bag).stem()).string()) {
+    Unpacking(bag, folder_).run();
 }
 
 }  // namespace rgbd_graphslam

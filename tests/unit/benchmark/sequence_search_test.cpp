@@ -50,6 +50,19 @@ TEST_F(Search, aRootMayBeASequence) {
                 ::testing::ElementsAre("a", "b", "d"));
 }
 
+TEST_F(Search, onlyArchivesOfFoldersCount) {
+    folder_.write("packed/x.tar.gz", "");
+    folder_.write("packed/rosout.log.gz", "");
+    EXPECT_THAT(namesOf(find({folder_ / "packed"})), ::testing::ElementsAre("x"));
+}
+
+TEST_F(Search, linksMayLeadAnywhere) {
+    std::filesystem::create_directory_symlink(folder_ / "all", folder_ / "all/two/loop");
+    std::filesystem::create_directory_symlink(folder_ / "all/two", folder_ / "linked");
+    EXPECT_EQ(find({folder_ / "all"}).size(), 5u);
+    EXPECT_THAT(namesOf(find({folder_ / "linked"})), ::testing::IsSupersetOf({"a", "b", "d"}));
+}
+
 TEST_F(Search, nothingAndDoubleNamesAreErrors) {
     folder_.write("other/c.rawlog", "");
     EXPECT_THROW(find({folder_ / "all", folder_ / "other"}), Error);

@@ -61,13 +61,17 @@ TEST_F(AtomicFile, missingFolderIsNamed) {
 TEST(MakeWritableFolder, removesWhatKilledProcessesLeft) {
     const fs::path folder = fs::temp_directory_path() / ("abandoned-" + std::to_string(getpid()));
     fs::create_directories(folder);
-    const std::string own = ".tmp-" + std::to_string(getpid()) + "-points.ply";
-    const std::string abandoned = ".tmp-2000000000-points.ply";  // beyond Linux's greatest number
-    for (const std::string& name : {own, abandoned, std::string(".tmp-notes")}) {
-        std::ofstream(folder / name) << "half";
+    const std::string own = temporaryName("points.ply");
+    const std::string number = std::to_string(getpid());
+    std::string abandoned = own;
+    abandoned.replace(abandoned.rfind(number), number.size(), "2000000000");  // none in Linux
+    const std::string elsewhere = ".tmp-another-machine-2000000000-points.ply";
+    for (const std::string& name : {own, abandoned, elsewhere, std::string(".tmp-notes")}) {
+        fs::create_directories(folder / name / "rgb");
     }
     makeWritableFolder(folder.string());
     EXPECT_TRUE(fs::exists(folder / own));
+    EXPECT_TRUE(fs::exists(folder / elsewhere));
     EXPECT_TRUE(fs::exists(folder / ".tmp-notes"));
     EXPECT_FALSE(fs::exists(folder / abandoned));
     fs::remove_all(folder);

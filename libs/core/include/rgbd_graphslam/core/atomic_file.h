@@ -5,6 +5,10 @@
 
 namespace rgbd_graphslam {
 
+/** Where a file or folder is made until it is whole: beside `path`, under a name that ends like it
+ * and tells machine and process, so that makeWritableFolder() knows what is abandoned. */
+std::string temporaryName(const std::string& path);
+
 /** Calls `write(temporary_path)`, flushes the file to disk and renames it to `path`; a kill at any
  *  moment leaves the old file, if any, untouched. The temporary name keeps the extension of `path`
  *  because many writers choose their format by it.
@@ -17,8 +21,8 @@ void writeAtomically(const std::string& path,
 /** writeAtomically for text. */
 void writeTextAtomically(const std::string& path, const std::string& text);
 
-/** Makes a folder with its parents if it must, and removes what killed processes left half-written.
- *  \throws Error naming the folder */
+/** Makes a folder with its parents if it must, and removes what killed processes of this machine
+ * left half-written in it. \throws Error naming the folder */
 void makeWritableFolder(const std::string& path);
 
 }  // namespace rgbd_graphslam
