@@ -60,9 +60,9 @@ int run(Arguments& args) {
     const std::size_t failures = runBenchmark(args.request);
     const std::string report = args.request.out_folder + "/report.html";
     if (failures > 0) {
-        throw Error(std::to_string(failures) + (failures == 1 ? " sequence" : " sequences") +
-                        " failed",
-                    "see '" + report + "'");
+        throw Error(
+            std::to_string(failures) + (failures == 1 ? " sequence" : " sequences") + " failed",
+            "see '" + report + "'");
     }
     std::printf("%s\n", report.c_str());
     return 0;

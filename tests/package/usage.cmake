@@ -17,6 +17,6 @@ endif()
 
 run(code text --no-such-option)
 get_filename_component(name ${APP} NAME)
-if(NOT code EQUAL 1 OR NOT text MATCHES "^${name}: error: [^\n]*(--no-such-option|required)[^\n]*; [^\n]*\n$")
+if(NOT code EQUAL 1 OR NOT text MATCHES "^${name}: error: '--no-such-option' is not understood here; [^\n]*\n$")
     message(SEND_ERROR "--no-such-option ended with ${code} and said:\n${text}")
 endif()
