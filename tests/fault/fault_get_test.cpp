@@ -181,7 +181,9 @@ TEST_F(FaultGet, unknownSequencesAndTheList) {
     expectRefused(runProgram("tum-get", ""), "which sequence?");
     const auto list = runProgram("tum-get", "--list");
     EXPECT_EQ(list.exit_code, 0);
-    EXPECT_THAT(list.out, HasSubstr("fr1/desk                      23.4 s   9.26 m   344 MB  "));
+    EXPECT_THAT(
+        list.out,
+        HasSubstr("fr1/desk                                    23.4 s   9.26 m   344 MB  "));
 }
 
 }  // namespace

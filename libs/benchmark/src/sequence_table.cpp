@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "rgbd_graphslam/core/error.h"
@@ -37,6 +38,13 @@ class Section {
         return value;
     }
 
+    /** Whether a key's list of words holds one. */
+    bool lists(const std::string& key, const std::string& word) const {
+        std::istringstream words(has(key) ? text(key) : "");
+        return std::find(std::istream_iterator<std::string>(words), {}, word) !=
+               std::istream_iterator<std::string>();
+    }
+
     void allow(const std::vector<std::string>& known) const {
         std::vector<std::string> keys;
         config_.getAllKeys(name_, keys);
@@ -59,13 +67,15 @@ class Section {
 };
 
 KnownSequence sequenceIn(const Section& section, const std::string& name) {
-    section.allow({"url", "good_for", "duration_s", "length_m", "bytes", "best_ate_m"});
+    section.allow({"url", "good_for", "duration_s", "length_m", "checked", "bytes", "best_ate_m"});
     KnownSequence sequence;
     sequence.name = name;
     sequence.url = section.text("url");
     sequence.good_for = section.text("good_for");
     sequence.duration_s = section.positive("duration_s");
     sequence.length_m = section.positive("length_m");
+    sequence.duration_checked = section.lists("checked", "duration");
+    sequence.length_checked = section.lists("checked", "length");
     if (section.has("bytes")) sequence.bytes = static_cast<std::size_t>(section.positive("bytes"));
     if (section.has("best_ate_m")) sequence.best_ate_m = section.positive("best_ate_m");
     return sequence;
@@ -113,19 +123,20 @@ const KnownSequence* findSequence(const std::vector<KnownSequence>& table,
 }
 
 std::string toText(const std::vector<KnownSequence>& table) {
-    std::string text = "sequence                    duration   length     size  good for\n";
+    std::string text =
+        "sequence                                  duration   length     size  good for\n";
     for (const auto& sequence : table) {
-        char size[32] = "      ?";
+        char size[32] = "?";
         if (sequence.bytes) {
-            std::snprintf(size, sizeof size, "%4.0f MB",
-                          static_cast<double>(*sequence.bytes) / 1e6);
+            std::snprintf(size, sizeof size, "%.0f MB", static_cast<double>(*sequence.bytes) / 1e6);
         }
         char line[256];
-        std::snprintf(line, sizeof line, "%-26s %7.1f s %6.2f m  %7s  ", sequence.name.c_str(),
-                      sequence.duration_s, sequence.length_m, size);
+        std::snprintf(line, sizeof line, "%-40s %c%6.1f s %c%5.2f m  %7s  ", sequence.name.c_str(),
+                      sequence.duration_checked ? ' ' : '~', sequence.duration_s,
+                      sequence.length_checked ? ' ' : '~', sequence.length_m, size);
         text += line + sequence.good_for + "\n";
     }
-    return text;
+    return text + "~ as remembered from the benchmark's page, not checked against the sequence\n";
 }
 
 }  // namespace rgbd_graphslam

@@ -11,6 +11,7 @@ struct KnownSequence {
     std::string name;  // e.g. "fr1/desk"
     std::string url, good_for;
     double duration_s = 0, length_m = 0;
+    bool duration_checked = false, length_checked = false;
     /** Of the archive; nothing where it is not known. */
     std::optional<std::size_t> bytes;
     /** Best published ATE RMSE with an RGB-D camera; nothing where none was found. */
