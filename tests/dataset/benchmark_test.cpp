@@ -1,4 +1,4 @@
-/** rgbd-benchmark as a user runs it, alone and shared out by GNU parallel. */
+/** rgbd-benchmark as a user runs it, alone and shared out by GNU parallel or Slurm. */
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -54,6 +54,12 @@ class BenchmarkProgram : public ::testing::Test {
         return result.value_or(SequenceResult{});
     }
 
+    static void expectAllReported(const std::string& out) {
+        const std::string report = readText(path(out) + "/report.md");
+        EXPECT_THAT(report, HasSubstr("3 sequences"));
+        for (const char* name : {"| a |", "| b |", "| c |"}) EXPECT_THAT(report, HasSubstr(name));
+    }
+
     static TestFolder* folder_;
 };
 
@@ -99,9 +105,22 @@ TEST_F(BenchmarkProgram, gnuParallelSharesTheWork) {
         "parallel -j 2 \"'" RGBD_BINARY_DIR "/bin/rgbd-benchmark' '" + path("in") + "' -o '" +
         path("shared") + "' --no-maps --only {}/2\" ::: 1 2 >'" + path("parallel.log") + "' 2>&1";
     ASSERT_EQ(std::system(command.c_str()), 0) << readText(path("parallel.log"));
-    const std::string report = readText(path("shared/report.md"));
-    EXPECT_THAT(report, HasSubstr("3 sequences"));
-    for (const char* name : {"| a |", "| b |", "| c |"}) EXPECT_THAT(report, HasSubstr(name));
+    expectAllReported("shared");
+}
+
+TEST_F(BenchmarkProgram, aSlurmJobArraySharesTheWork) {
+    if (std::system("which munged slurmctld slurmd sbatch >/dev/null") != 0) {
+        GTEST_SKIP() << "Debian's slurm-wlm is not installed";
+    }
+    const TestFolder cluster;
+    const std::string job = "--array=1-3 --wrap \"'" RGBD_BINARY_DIR "/bin/rgbd-benchmark' '" +
+                            path("in") + "' -o '" + path("slurm") +
+                            "' --no-maps --only \\$SLURM_ARRAY_TASK_ID/3\"";
+    const std::string command = "timeout 240 '" RGBD_SOURCE_DIR "/tests/support/with_slurm' '" +
+                                cluster / "" + "' sbatch --output=/dev/null " + job + " >'" +
+                                path("slurm.log") + "' 2>&1";
+    ASSERT_EQ(std::system(command.c_str()), 0) << readText(path("slurm.log"));
+    expectAllReported("slurm");
 }
 
 TEST_F(BenchmarkProgram, aBrokenSequenceFailsAloneAndIsTriedAgain) {

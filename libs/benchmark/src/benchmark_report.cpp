@@ -69,7 +69,8 @@ std::string summaryOf(const std::vector<SequenceResult>& results,
         ++compared;
         if (*result.ate_rmse_m <= *known->best_ate_m) ++as_good;
     }
-    std::string text = std::to_string(results.size()) + (results.size() == 1 ? " sequence" : " sequences");
+    std::string text =
+        std::to_string(results.size()) + (results.size() == 1 ? " sequence" : " sequences");
     if (!version.empty()) text += " with rgbd-graphslam " + version;
     if (failed > 0) text += ", " + std::to_string(failed) + " failed";
     if (compared > 0) {
