@@ -55,14 +55,19 @@ float foregroundDepth(const cv::Mat& depth, double depth_unit_m, float u, float 
 }
 
 FrameBuilder::FrameBuilder(const FeatureOptions& options, const Camera& camera)
-    : options_(options), camera_(camera), extractor_(options), dense_(camera) {}
+    : options_(options),
+      camera_(camera),
+      extractor_(options),
+      dense_(std::make_shared<DenseViewBuilder>(camera)) {}
 
 Frame FrameBuilder::build(const RgbdImage& image) const {
     checkImage(image.grey, CV_8UC1, "grey", camera_, image.stamp_s);
     checkImage(image.depth, CV_16UC1, "depth", camera_, image.stamp_s);
     Frame frame;
     frame.stamp_s = image.stamp_s;
-    frame.view = dense_.build(image);
+    frame.view = std::async(std::launch::deferred, [dense = dense_, image] {
+                     return dense->build(image);
+                 }).share();
     OrbFeatures features = extractor_.extract(image.grey);
     frame.descriptors = std::move(features.descriptors);
     frame.keypoints.reserve(features.corners.size());

@@ -104,7 +104,7 @@ std::optional<SE3> WeakTracker::follow(const Frame& frame) {
         T_last_cam = predicted;
         T_anchor_last_ = T_anchor_last_ * *predicted;
         T_anchor_last_.R = orthonormalised(T_anchor_last_.R);
-        const bool seen = frame.view.depthShare() > least_depth_share;
+        const bool seen = frame.view.valid() && frame.view.get().depthShare() > least_depth_share;
         if (frame.reckoning.T_odometry_cam) last_fixed_s_ = frame.stamp_s;
         if (seen) {
             anchor_ = frame.view;
@@ -121,8 +121,9 @@ SE3 WeakTracker::guess(const Frame& frame) const {
 }
 
 std::optional<SE3> WeakTracker::alignWithAnchor(const Frame& frame, const SE3& T_last_cam_guess) {
-    if (anchor_.empty() || frame.view.empty()) return std::nullopt;
-    const auto aligned = alignDensely(anchor_, frame.view, T_anchor_last_ * T_last_cam_guess);
+    if (!anchor_.valid() || !frame.view.valid()) return std::nullopt;
+    const auto aligned =
+        alignDensely(anchor_.get(), frame.view.get(), T_anchor_last_ * T_last_cam_guess);
     if (!aligned) return std::nullopt;
     const SE3 T_last_cam = T_anchor_last_.inverse() * aligned->T_reference_view;
     T_anchor_last_ = {orthonormalised(aligned->T_reference_view.R), aligned->T_reference_view.t};

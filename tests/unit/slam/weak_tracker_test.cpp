@@ -17,7 +17,7 @@ SE3 sweep(int i) {
 Frame frameAt(int i, DenseView view) {
     Frame frame;
     frame.stamp_s = 1 + period_s * i;
-    frame.view = std::move(view);
+    frame.view = std::async(std::launch::deferred, [view] { return view; }).share();
     return frame;
 }
 

@@ -1,6 +1,7 @@
 /** What tracking keeps of an image. */
 #pragma once
 #include <cstdint>
+#include <future>
 #include <optional>
 #include <vector>
 
@@ -61,8 +62,9 @@ struct Frame {
     std::vector<Keypoint> keypoints;
     std::vector<Descriptor> descriptors;
     KeypointGrid grid;
-    /** The image as a whole; keyframes do without. */
-    DenseView view;
+    /** The image as a whole, made when it is first asked for: most frames are tracked without.
+     *  Not valid in keyframes. */
+    std::shared_future<DenseView> view;
     DeadReckoning reckoning;
 };
 

@@ -1,5 +1,7 @@
 /** From image to frame. */
 #pragma once
+#include <memory>
+
 #include "rgbd_graphslam/features/dense_view_builder.h"
 #include "rgbd_graphslam/features/frame.h"
 #include "rgbd_graphslam/features/orb_extractor.h"
@@ -12,16 +14,16 @@ class FrameBuilder {
   public:
     FrameBuilder(const FeatureOptions& options, const Camera& camera);
 
-    /** Extracts corners, undistorts their positions, reads their depth, and makes the small image.
-     * Thread-safe. \throws Error when the images are not of the camera's size or of the wrong type
-     */
+    /** Extracts corners, undistorts their positions and reads their depth. Thread-safe. The frame
+     *  shares the pixels until its view is dropped.
+     *  \throws Error when the images are not of the camera's size or of the wrong type */
     Frame build(const RgbdImage& image) const;
 
   private:
     FeatureOptions options_;
     Camera camera_;
     OrbExtractor extractor_;
-    DenseViewBuilder dense_;
+    std::shared_ptr<const DenseViewBuilder> dense_;
 };
 
 /** Depth at a pixel from its 3x3 neighbourhood: the mean of the readings that belong to the nearest

@@ -1,5 +1,6 @@
 /** Where a frame is when no landmark can tell. */
 #pragma once
+#include <future>
 #include <optional>
 
 #include "rgbd_graphslam/core/byte_stream.h"
@@ -36,7 +37,7 @@ class WeakTracker {
 
     /** Frames are aligned with one anchor for as long as they share enough with it, so that small
      *  errors do not add up. */
-    DenseView anchor_;
+    std::shared_future<DenseView> anchor_;
     SE3 T_anchor_last_;
     DeadReckoning last_reckoning_;
     double last_stamp_s_ = 0;
