@@ -4,6 +4,7 @@
 
 #include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/mapping/level_survey.h"
 #include "rgbd_graphslam/mapping/run_folder.h"
 #include "rgbd_graphslam/report/run_report.h"
 

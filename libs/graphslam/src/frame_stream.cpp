@@ -129,7 +129,10 @@ class FrameStream::Implementation {
             noteTruth(*observation);
             reckoner_.note(*observation);
             auto frame = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation);
-            if (!frame) continue;
+            if (!frame) {
+                before_.push_back(observation);
+                continue;
+            }
             if (!first_) first_ = frame;
             if (frame->sensorLabel != first_->sensorLabel) continue;  // another camera
             ended_ = false;
@@ -137,7 +140,8 @@ class FrameStream::Implementation {
             expected_frames_ = std::lround(frames_read_ / std::max(1e-9, reader_.progress()));
             const DeadReckoning reckoning =
                 reckoner_.at(toSeconds(frame->timestamp), cameraOnRobot(*first_));
-            return StreamedFrame{index, std::move(frame), {}, reckoning};
+            return StreamedFrame{
+                std::exchange(before_, {}), index, std::move(frame), {}, reckoning};
         }
         return std::nullopt;
     }
@@ -166,6 +170,7 @@ class FrameStream::Implementation {
     std::mutex reading_;  // guards all down to frames_read_
     RawlogReader reader_;
     DeadReckoner reckoner_;
+    std::vector<mrpt::obs::CObservation::Ptr> before_;
     bool ended_ = false;
     std::optional<StreamedFrame> pending_;
     CObservation3DRangeScan::Ptr first_;

@@ -19,6 +19,7 @@
 #include "rgbd_graphslam/graphslam/graph_slam_session.h"
 #include "rgbd_graphslam/graphslam/sparse_map_file.h"
 #include "rgbd_graphslam/live/viewer_launch.h"
+#include "rgbd_graphslam/mapping/level_survey.h"
 #include "rgbd_graphslam/mapping/map_builder.h"
 #include "rgbd_graphslam/report/keyframe_sheet.h"
 #include "rgbd_graphslam/report/run_report.h"
@@ -82,7 +83,8 @@ class Job {
           start_(std::move(start)),
           stream_(job.rawlog, job.options.run),
           session_(makeSession(job, stream_, start_)),
-          live_feed_(job.out_folder) {
+          live_feed_(job.out_folder),
+          level_(job.options.maps) {
         if (!start_ || job.localises()) return;
         for (const KeyframeView& keyframe : session_.slam().keyframes()) noteKeyframe(keyframe.id);
         first_keyframe_ = static_cast<int>(T_previous_keyframe_.size());
@@ -139,6 +141,7 @@ class Job {
     int part_ = 0;                          // of the map that is written
     std::vector<SE3> T_previous_keyframe_;  // one a keyframe, the identity for the first
     KeyframeSheet keyframe_sheet_;
+    LevelSurvey level_;
     Trajectory truth_;  // beside the estimate, in its world
 };
 
@@ -189,6 +192,7 @@ std::optional<StreamedFrame> Job::nextFrame() {
 }
 
 void Job::trackOne(const StreamedFrame& frame) {
+    for (const auto& observation : frame.before) level_.note(*observation);
     const double stamp_s = frame.prepared.stamp_s;
     if (last_stamp_s_ && stamp_s <= *last_stamp_s_) {
         if (report_.out_of_order++ == 0) {
@@ -205,8 +209,9 @@ void Job::trackOne(const StreamedFrame& frame) {
     live_feed_.note(frame, tracked, 1e3 * watch.seconds(), session_);
     if (!tracked.keyframe) return;
     noteKeyframe(*tracked.keyframe);
-    keyframe_sheet_.add(*tracked.keyframe, *last_stamp_s_ - *first_stamp_s_,
-                        toRgbdImage(frame.observation).color);
+    const RgbdImage image = toRgbdImage(frame.observation);
+    keyframe_sheet_.add(*tracked.keyframe, *last_stamp_s_ - *first_stamp_s_, image.color);
+    if (!start_) level_.addKeyframe(*tracked.keyframe, image, cameraOf(*frame.observation));
 }
 
 void Job::noteKeyframe(int keyframe) {
@@ -375,7 +380,7 @@ void Job::writeMap() {
                     "check depth scale and calibration, and that the camera sees texture");
     }
     const SE3 T_up_world =
-        start_ ? start_->T_up_world : uprightFromWorld(inputs, job_.options.maps);
+        start_ ? start_->T_up_world : level_.uprightFromWorld(inputs, session_.T_base_cam());
     const MapInputs upright = transformed(T_up_world, inputs);
     writePoses(upright, T_up_world);
     writeSparseMap(path(sparse_map_name),

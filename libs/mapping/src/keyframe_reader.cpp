@@ -16,6 +16,7 @@
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 
 namespace rgbd_graphslam {
+using mrpt::obs::CObservation;
 namespace {
 
 constexpr double stamp_tolerance_s = 5e-4;
@@ -28,6 +29,8 @@ std::optional<std::size_t> indexAt(const Trajectory& poses, double stamp_s) {
     return static_cast<std::size_t>(near - poses.begin());
 }
 
+}  // namespace
+
 void noteDepthStamps(const mrpt::obs::CObservation& observation, DepthStamps& stamps) {
     const auto* comment = dynamic_cast<const mrpt::obs::CObservationComment*>(&observation);
     if (comment) stamps.merge(depthStampsIn(comment->text));
@@ -38,28 +41,36 @@ double depthStamp(const DepthStamps& stamps, double color_stamp_s) {
     return found == stamps.end() ? color_stamp_s : 1e-6 * static_cast<double>(found->second);
 }
 
-}  // namespace
-
-SE3 depthPose(const Keyframe3D& keyframe, const Trajectory& trajectory) {
+SE3 depthPose(const StampedPose& keyframe, double depth_stamp_s, const Trajectory& trajectory) {
     constexpr double longest_gap_s = 0.2;
-    const auto T_color = poseAt(trajectory, keyframe.pose.stamp_s, longest_gap_s),
-               T_depth = poseAt(trajectory, keyframe.depth_stamp_s, longest_gap_s);
-    if (!T_color || !T_depth) return keyframe.pose.T_world_cam;
-    return keyframe.pose.T_world_cam * (T_color->inverse() * *T_depth);
+    const auto T_color = poseAt(trajectory, keyframe.stamp_s, longest_gap_s),
+               T_depth = poseAt(trajectory, depth_stamp_s, longest_gap_s);
+    if (!T_color || !T_depth) return keyframe.T_world_cam;
+    return keyframe.T_world_cam * (T_color->inverse() * *T_depth);
 }
 
 std::size_t forEachKeyframe(const std::string& rawlog, const Trajectory& keyframes,
                             const std::string& label,
-                            const std::function<void(const Keyframe3D&)>& consume) {
+                            const std::function<void(const Keyframe3D&)>& consume,
+                            const std::function<void(const CObservation&)>& note) {
     RawlogReader reader(rawlog);
     Progress progress(label, keyframes.size(), "keyframes");
     DepthStamps depth_stamps;
     std::vector<bool> seen(keyframes.size());
     std::size_t found = 0;
-    while (found < keyframes.size()) {
-        const auto observation = reader.next();
+    const auto next = [&]() -> CObservation::Ptr {
+        try {
+            return reader.next();
+        } catch (const Error&) {
+            if (found < keyframes.size()) throw;
+            return nullptr;  // a rawlog that is cut off behind the last keyframe serves
+        }
+    };
+    while (found < keyframes.size() || note) {
+        const auto observation = next();
         if (!observation) break;
         noteDepthStamps(*observation, depth_stamps);
+        if (note) note(*observation);
         const auto frame =
             std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation);
         if (!frame || !frame->hasRangeImage) continue;
@@ -67,7 +78,7 @@ std::size_t forEachKeyframe(const std::string& rawlog, const Trajectory& keyfram
         if (!index || seen[*index]) continue;
         const StampedPose& pose = keyframes[*index];
         consume({*index, pose, depthStamp(depth_stamps, pose.stamp_s), toRgbdImage(frame),
-                 cameraOf(*frame)});
+                 cameraOf(*frame), cameraOnRobot(*frame)});
         seen[*index] = true;
         progress.update(++found);
     }

@@ -25,20 +25,27 @@ double degrees(double angle) {
     return angle * M_PI / 180;
 }
 
-std::optional<Eigen::Vector3d> pointAt(const DepthView& view, int u, int v) {
-    const float z = view.depth(v, u);
-    if (z <= 0 || z > view.max_range_m) return std::nullopt;
-    const Eigen::Vector2f& ray = view.rays.row(v)[u];
+/** A depth image and where its pixels look. */
+struct Rays {
+    const cv::Mat1f& depth;
+    const RayTable& table;
+    double max_range_m;
+};
+
+std::optional<Eigen::Vector3d> pointAt(const Rays& rays, int u, int v) {
+    const float z = rays.depth(v, u);
+    if (z <= 0 || z > rays.max_range_m) return std::nullopt;
+    const Eigen::Vector2f& ray = rays.table.row(v)[u];
     return Eigen::Vector3d(ray.x() * z, ray.y() * z, z);
 }
 
 /** Plane through the ends of a cross. */
-std::optional<SurfacePatch> patchAt(const DepthView& view, int u, int v) {
-    const auto left = pointAt(view, u - patch_arm_px, v),
-               right = pointAt(view, u + patch_arm_px, v);
-    const auto above = pointAt(view, u, v - patch_arm_px),
-               below = pointAt(view, u, v + patch_arm_px);
-    const auto middle = pointAt(view, u, v);
+std::optional<SurfacePatch> patchAt(const Rays& rays, int u, int v) {
+    const auto left = pointAt(rays, u - patch_arm_px, v),
+               right = pointAt(rays, u + patch_arm_px, v);
+    const auto above = pointAt(rays, u, v - patch_arm_px),
+               below = pointAt(rays, u, v + patch_arm_px);
+    const auto middle = pointAt(rays, u, v);
     if (!left || !right || !above || !below || !middle) return std::nullopt;
     const Eigen::Vector3d normal = (*below - *above).cross(*right - *left).normalized();
     // On an edge the middle does not lie between the ends.
@@ -104,13 +111,13 @@ std::optional<Eigen::Vector3d> upFromAccelerometer(const std::vector<SpecificFor
     return sum.normalized();
 }
 
-std::vector<SurfacePatch> surfacePatches(const SE3& T_world_cam, const DepthView& view) {
+std::vector<SurfacePatch> surfacePatches(const cv::Mat1f& depth, const RayTable& table,
+                                         double max_range_m) {
+    const Rays rays{depth, table, max_range_m};
     std::vector<SurfacePatch> patches;
-    for (int v = patch_arm_px; v < view.depth.rows - patch_arm_px; v += patch_step_px) {
-        for (int u = patch_arm_px; u < view.depth.cols - patch_arm_px; u += patch_step_px) {
-            const auto patch = patchAt(view, u, v);
-            if (patch)
-                patches.push_back({T_world_cam * patch->position, T_world_cam.R * patch->normal});
+    for (int v = patch_arm_px; v < depth.rows - patch_arm_px; v += patch_step_px) {
+        for (int u = patch_arm_px; u < depth.cols - patch_arm_px; u += patch_step_px) {
+            if (const auto patch = patchAt(rays, u, v)) patches.push_back(*patch);
         }
     }
     return patches;

@@ -1,4 +1,5 @@
 #include "rgbd_graphslam/mapping/map_builder.h"
+#include "rgbd_graphslam/mapping/level_survey.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -158,18 +159,19 @@ TEST_F(MapBuilder, depthIsPlacedWhereTheCameraWasWhenItWasTaken) {
         const double delay_s = keyframe.depth_stamp_s - keyframe.pose.stamp_s;
         if (keyframe.index != 3) {
             EXPECT_EQ(delay_s, 0);
-            EXPECT_LT((depthPose(keyframe, other).t - T.t).norm(), 1e-9);
+            EXPECT_LT((depthPose(keyframe.pose, keyframe.depth_stamp_s, other).t - T.t).norm(),
+                      1e-9);
             return;
         }
         ++late;
         EXPECT_NEAR(delay_s, late_s, 1e-6);
         const SE3 expected = interpolate(T, inputs_.keyframes[4].T_world_cam, late_s / 0.1);
         for (const Trajectory& trajectory : {inputs_.trajectory, other}) {
-            const SE3 found = depthPose(keyframe, trajectory);
+            const SE3 found = depthPose(keyframe.pose, keyframe.depth_stamp_s, trajectory);
             EXPECT_LT((found.t - expected.t).norm(), 1e-5);
             EXPECT_LT((found.R - expected.R).norm(), 1e-5);
         }
-        EXPECT_EQ(depthPose(keyframe, {}).t, T.t);
+        EXPECT_EQ(depthPose(keyframe.pose, keyframe.depth_stamp_s, {}).t, T.t);
     });
     EXPECT_EQ(late, 1u);
 }

@@ -24,8 +24,11 @@ std::vector<SurfacePatch> patchesOf(const Trajectory& trajectory) {
     for (const auto& [stamp, T] : trajectory) {
         const RgbdImage image =
             render(BoxRoom(), smallCamera(), T_odd_up.inverse() * T, stamp, &noise);
-        const auto found = surfacePatches(T, DepthView(image, rays, MapOptions()));
-        patches.insert(patches.end(), found.begin(), found.end());
+        const MapOptions options;
+        const cv::Mat1f depth = cleanDepth(image, smallCamera(), options);
+        for (const SurfacePatch& patch : surfacePatches(depth, rays, options.max_range_m)) {
+            patches.push_back({T * patch.position, T.R * patch.normal});
+        }
     }
     return patches;
 }

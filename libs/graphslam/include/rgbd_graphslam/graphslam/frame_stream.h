@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "rgbd_graphslam/features/frame.h"
 #include "rgbd_graphslam/geometry/rgbd_image.h"
@@ -17,6 +18,8 @@
 namespace rgbd_graphslam {
 
 struct StreamedFrame {
+    /** All else that the rawlog holds between the frame before and this one. */
+    std::vector<mrpt::obs::CObservation::Ptr> before;
     /** Counts the RGB-D frames of the rawlog from 0. */
     std::size_t index = 0;
     mrpt::obs::CObservation3DRangeScan::Ptr observation;

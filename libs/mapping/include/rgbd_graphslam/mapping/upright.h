@@ -27,9 +27,11 @@ struct SurfacePatch {
 std::optional<Eigen::Vector3d> upFromAccelerometer(const std::vector<SpecificForce>& readings,
                                                    const Trajectory& trajectory);
 
-/** Patches on a lattice over a view, in world axes. Needs rays without strong lens distortion only
- *  in so far as neighbours are neighbours. */
-std::vector<SurfacePatch> surfacePatches(const SE3& T_world_cam, const DepthView& view);
+/** Patches on a lattice over a depth image, in the camera's axes. Needs rays without strong lens
+ *  distortion only in so far as neighbours are neighbours.
+ *  \param depth m, 0 = none; readings beyond max_range_m are left out */
+std::vector<SurfacePatch> surfacePatches(const cv::Mat1f& depth, const RayTable& rays,
+                                         double max_range_m);
 
 /** The direction that most patches near the guess agree on: floor, tables, seats.
  *  \param guess unit vector, \param cone how far it may be wrong, rad

@@ -1,0 +1,46 @@
+/** Poses and rawlogs that maps are made of. */
+#pragma once
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/geometry/trajectory.h"
+
+namespace rgbd_graphslam {
+
+/** A loop between two keyframes, by their index in MapInputs::keyframes. */
+struct MapLoopEdge {
+    int from = 0, to = 0;
+    int inliers = 0;
+};
+
+/** A rawlog of an earlier session and how many keyframes are its. */
+struct EarlierSession {
+    std::string rawlog;
+    std::size_t keyframes = 0;
+};
+
+/** What maps are made of. Poses are of the camera's optical frame. */
+struct MapInputs {
+    std::string rawlog;    // where the images are
+    Trajectory keyframes;  // the maps are made of these; in order of time within a session
+    /** Every frame; places depth images between colour stamps, and accelerometer readings. */
+    Trajectory trajectory;
+    std::vector<MapLoopEdge> loops;
+    /** Keyframes as they were without loops; may be empty. */
+    Trajectory keyframes_before_loops;
+    /** Where the first keyframes come from; the rest is of `rawlog`. */
+    std::vector<EarlierSession> earlier;
+    /** Keyframes, by rising index, whose place relative to the others is unknown. */
+    std::vector<int> apart;
+};
+
+/** \throws Error when there is no keyframe, or something names one that is not there */
+void checkInputs(const MapInputs& inputs);
+
+/** The inputs without the keyframes that are apart, the others counted anew. */
+MapInputs withoutApart(const MapInputs& inputs);
+
+/** All poses of the inputs in the frame a of T_a_world. */
+MapInputs transformed(const SE3& T_a_world, MapInputs inputs);
+
+}  // namespace rgbd_graphslam
