@@ -78,14 +78,16 @@ void WeakTracker::accept(const Frame& frame, const SE3& T_last_cam) {
 }
 
 void WeakTracker::save(ByteWriter& out) const {
-    put(anchor_, out);
+    put(anchor_.valid() ? anchor_.get() : DenseView(), out);
     put(last_reckoning_, out);
     for (const SE3& pose : {T_anchor_last_, motion_}) encodePose(pose, out);
     for (const double stamp_s : {last_stamp_s_, last_fixed_s_}) out.put(stamp_s);
 }
 
 void WeakTracker::load(ByteReader& in) {
-    anchor_ = getView(in);
+    const DenseView anchor = getView(in);
+    anchor_ = {};
+    if (!anchor.empty()) anchor_ = std::async(std::launch::deferred, [anchor] { return anchor; });
     last_reckoning_ = getReckoning(in);
     for (SE3* pose : {&T_anchor_last_, &motion_}) *pose = decodePose(in);
     for (double* stamp_s : {&last_stamp_s_, &last_fixed_s_}) *stamp_s = getFinite(in);
