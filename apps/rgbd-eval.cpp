@@ -143,6 +143,14 @@ void declareSurface(CLI::App& command, const std::string& map, SurfaceRequest& r
     command.add_option("--truth", request.truth, "True trajectory, in the surface's frame")
         ->needs(estimate);
     estimate->needs("--truth");
+    command
+        .add_option("--camera", request.camera,
+                    "Name or ini file: tell of what the camera saw on the true trajectory, too")
+        ->needs("--truth");
+    declareNumber(command, "--max-range", request.sight.max_range_m, "The camera sees so far, m",
+                  positive());
+    declareNumber(command, "--max-incidence", request.sight.max_incidence_deg,
+                  "The camera measures up to so many degrees off the surface's normal", positive());
     declareFormat(command, request.format);
 }
 
@@ -152,13 +160,6 @@ void addMap(CLI::App& app, MapRequest& request) {
     auto& options = request.options;
     declareNumber(command, "--complete-within", options.completeness_distance_m,
                   "A place of the surface with a point of the map nearer is covered, m",
-                  positive());
-    command
-        .add_option("--camera", request.camera,
-                    "Name or ini file: tell completeness of what the camera saw on the true "
-                    "trajectory, too")
-        ->needs("--truth");
-    declareNumber(command, "--max-range", request.sight.max_range_m, "The camera sees so far, m",
                   positive());
     command.final_callback([&request] { print(runMap(request)); });
 }

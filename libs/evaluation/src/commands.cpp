@@ -156,16 +156,18 @@ Similarity alignmentOf(const SurfaceRequest& request) {
     });
 }
 
+std::optional<SurfaceSight> sightOf(const SurfaceRequest& request, const PlyModel& surface) {
+    if (request.camera.empty()) return std::nullopt;
+    return SurfaceSight(surface, cameraNamed(request.camera).camera, readTrajectory(request.truth),
+                        request.sight);
+}
+
 std::string runMap(const MapRequest& request) {
     MapAccuracyOptions options = request.options;
     options.alignment = alignmentOf(request);
     const PlyModel surface = readPly(request.surface);
-    std::optional<SurfaceSight> sight;
-    if (!request.camera.empty()) {
-        sight.emplace(surface, cameraNamed(request.camera).camera, readTrajectory(request.truth),
-                      request.sight);
-        options.sight = &*sight;
-    }
+    const auto sight = sightOf(request, surface);
+    options.sight = sight ? &*sight : nullptr;
     const auto accuracy = evaluateMap(readPly(request.map), surface, options);
     const std::string label = std::filesystem::path(request.map).stem();
     return format({reportOf(label, accuracy)}, request.format);

@@ -44,7 +44,10 @@ Pixels boundsOf(const std::array<Eigen::Vector3d, 3>& corners, const Camera& cam
 
 SurfaceSight::SurfaceSight(const PlyModel& surface, const Camera& camera, const Trajectory& cameras,
                            const SightOptions& options)
-    : surface_(surface), camera_(halved(camera)), options_(options) {
+    : surface_(surface),
+      camera_(halved(camera)),
+      options_(options),
+      least_cosine_(std::cos(options.max_incidence_deg * M_PI / 180)) {
     if (surface.triangles.empty()) {
         throw Error("a surface of points hides nothing", "give triangles to tell what was seen");
     }
@@ -103,19 +106,28 @@ bool SurfaceSight::sees(const Eigen::Vector3d& p) const {
                        [&](const View& view) { return shows(view, p); });
 }
 
-bool SurfaceSight::shows(const View& view, const Eigen::Vector3d& p) const {
+bool SurfaceSight::liesOn(std::int32_t triangle, const Eigen::Vector3d& p) const {
     constexpr double tolerance_m = 0.002;
+    const Eigen::Vector4d& plane = planes_[triangle];
+    return std::abs(plane.head<3>().dot(p) - plane.w()) < tolerance_m;
+}
+
+/** \param ray from the camera to the triangle, world axes */
+bool SurfaceSight::isSteep(std::int32_t triangle, const Eigen::Vector3d& ray) const {
+    return std::abs(planes_[triangle].head<3>().dot(ray)) >= least_cosine_ * ray.norm();
+}
+
+bool SurfaceSight::shows(const View& view, const Eigen::Vector3d& p) const {
     const Eigen::Vector3d in_camera = view.T_cam_world * p;
     if (in_camera.z() < options_.min_range_m || in_camera.z() > options_.max_range_m) return false;
     const Eigen::Vector2d pixel = camera_.project(in_camera);
+    const Eigen::Vector3d ray = view.T_cam_world.R.transpose() * in_camera;
     const int u0 = static_cast<int>(std::floor(pixel.x())),
               v0 = static_cast<int>(std::floor(pixel.y()));
     for (const auto& [u, v] : {std::pair(u0, v0), {u0 + 1, v0}, {u0, v0 + 1}, {u0 + 1, v0 + 1}}) {
         if (u < 0 || v < 0 || u >= camera_.width || v >= camera_.height) continue;
         const std::int32_t front = view.triangle[static_cast<std::size_t>(v) * camera_.width + u];
-        if (front < 0) continue;
-        const Eigen::Vector4d& plane = planes_[front];
-        if (std::abs(plane.head<3>().dot(p) - plane.w()) < tolerance_m) return true;
+        if (front >= 0 && liesOn(front, p) && isSteep(front, ray)) return true;
     }
     return false;
 }

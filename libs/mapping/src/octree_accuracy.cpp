@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <unordered_set>
+#include <vector>
 
 #include "rgbd_graphslam/evaluation/ate.h"
 #include "rgbd_graphslam/evaluation/commands.h"
@@ -53,73 +54,126 @@ void forEachKnown(const octomap::OcTree& tree,
     }
 }
 
-/** Where the surface is, by voxel of the octree. */
-struct SurfaceVoxels {
-    std::unordered_set<std::uint64_t> inside, near;
-    std::unordered_set<std::uint64_t>
-        confirmed;  // of inside: an occupied voxel is within tolerance
-};
-
-SurfaceVoxels voxelsOf(const PlyModel& surface, const SE3& T_map_truth, double edge_m,
-                       double tolerance_m, const std::unordered_set<std::uint64_t>& occupied) {
-    SurfaceVoxels voxels;
-    forEachSurfaceSample(surface, edge_m / 5, [&](const Eigen::Vector3d& sample, double) {
-        const Eigen::Vector3d p = T_map_truth * sample;
-        const std::uint64_t here = voxelKey(voxelOf(p, edge_m));
-        voxels.inside.insert(here);
-        forEachVoxelNear(p, tolerance_m, edge_m, [&](std::uint64_t voxel) {
-            voxels.near.insert(voxel);
-            if (occupied.count(voxel)) voxels.confirmed.insert(here);
-        });
-    });
-    return voxels;
+double share(double part, double whole) {
+    return whole > 0 ? part / whole : 0;
 }
 
-double share(std::size_t part, std::size_t whole) {
-    return whole ? static_cast<double>(part) / static_cast<double>(whole) : 0;
+/** The octree, voxel by voxel. */
+struct KnownVoxels {
+    std::unordered_set<std::uint64_t> occupied, free;
+
+    explicit KnownVoxels(const octomap::OcTree& tree) {
+        forEachKnown(tree, [this](std::uint64_t voxel, bool is_occupied) {
+            (is_occupied ? occupied : free).insert(voxel);
+        });
+    }
+};
+
+/** Where the surface is, by voxel of the octree. */
+class SurfaceVoxels {
+  public:
+    SurfaceVoxels(const KnownVoxels& known, double edge_m, double tolerance_m)
+        : known_(known), edge_m_(edge_m), tolerance_m_(tolerance_m) {}
+
+    /** \param p in the frame of the octree \param seen_area_m2 that the sample stands for; 0 when
+     *  no camera saw it */
+    void sample(const Eigen::Vector3d& p, double seen_area_m2) {
+        const std::uint64_t here = voxelKey(voxelOf(p, edge_m_));
+        inside_.insert(here);
+        bool confirmed = false;
+        forEachVoxelNear(p, tolerance_m_, edge_m_, [&](std::uint64_t voxel) {
+            near_.insert(voxel);
+            confirmed = confirmed || known_.occupied.count(voxel);
+        });
+        if (confirmed) confirmed_.insert(here);
+        seen_m2_ += seen_area_m2;
+        if (known_.occupied.count(here)) occupied_m2_ += seen_area_m2;
+        if (confirmed) confirmed_m2_ += seen_area_m2;
+        if (known_.free.count(here)) free_m2_ += seen_area_m2;
+    }
+
+    OctreeAccuracy accuracy() const {
+        OctreeAccuracy result;
+        std::size_t hits = 0, near_hits = 0, wrong = 0;
+        const auto count = [&](const std::unordered_set<std::uint64_t>& voxels, bool is_occupied) {
+            for (const std::uint64_t voxel : voxels) {
+                if (inside_.count(voxel)) {
+                    ++result.surface_voxels;
+                    hits += is_occupied;
+                    near_hits += confirmed_.count(voxel);
+                } else if (!near_.count(voxel)) {
+                    ++result.free_voxels;
+                    wrong += is_occupied;
+                }
+            }
+        };
+        count(known_.occupied, true);
+        count(known_.free, false);
+        const auto surface = static_cast<double>(result.surface_voxels);
+        result.surface_occupied = share(static_cast<double>(hits), surface);
+        result.surface_occupied_within_tolerance = share(static_cast<double>(near_hits), surface);
+        result.free_occupied =
+            share(static_cast<double>(wrong), static_cast<double>(result.free_voxels));
+        return result;
+    }
+
+    SeenSurface seen() const {
+        return {seen_m2_, share(occupied_m2_, seen_m2_), share(confirmed_m2_, seen_m2_),
+                share(free_m2_, seen_m2_)};
+    }
+
+  private:
+    const KnownVoxels& known_;
+    double edge_m_, tolerance_m_;
+    std::unordered_set<std::uint64_t> inside_, near_;
+    std::unordered_set<std::uint64_t> confirmed_;  // of inside_: an occupied voxel is near
+    double seen_m2_ = 0, occupied_m2_ = 0, confirmed_m2_ = 0, free_m2_ = 0;
+};
+
+std::vector<Figure> figuresOf(const OctreeAccuracy& accuracy) {
+    const auto percent = [](const std::string& name, double value) {
+        return Figure{name, 100 * value, "%", 2};
+    };
+    std::vector<Figure> figures = {
+        {"surface_voxels", static_cast<double>(accuracy.surface_voxels), "voxels", 0},
+        percent("surface_occupied", accuracy.surface_occupied),
+        percent("surface_occupied_within_tolerance", accuracy.surface_occupied_within_tolerance),
+        {"free_voxels", static_cast<double>(accuracy.free_voxels), "voxels", 0},
+        percent("free_occupied", accuracy.free_occupied)};
+    if (!accuracy.seen) return figures;
+    figures.push_back({"seen_surface", accuracy.seen->area_m2, "m2", 2});
+    figures.push_back(percent("seen_occupied", accuracy.seen->occupied));
+    figures.push_back(
+        percent("seen_occupied_within_tolerance", accuracy.seen->occupied_within_tolerance));
+    figures.push_back(percent("seen_free", accuracy.seen->free));
+    return figures;
 }
 
 }  // namespace
 
 OctreeAccuracy evaluateOctree(const octomap::OcTree& tree, const PlyModel& surface,
-                              const Similarity& truth_from_map, double tolerance_m) {
-    std::unordered_set<std::uint64_t> occupied;
-    forEachKnown(tree, [&](std::uint64_t voxel, bool is_occupied) {
-        if (is_occupied) occupied.insert(voxel);
+                              const Similarity& truth_from_map, double tolerance_m,
+                              const SurfaceSight* sight) {
+    const double edge_m = tree.getResolution();
+    const SE3 T_map_truth = truth_from_map.motion.inverse();
+    const KnownVoxels known(tree);
+    SurfaceVoxels voxels(known, edge_m, tolerance_m);
+    forEachSurfaceSample(surface, edge_m / 5, [&](const Eigen::Vector3d& p, double area_m2) {
+        voxels.sample(T_map_truth * p, sight && sight->sees(p) ? area_m2 : 0);
     });
-    const auto voxels = voxelsOf(surface, truth_from_map.motion.inverse(), tree.getResolution(),
-                                 tolerance_m, occupied);
-    OctreeAccuracy accuracy;
-    std::size_t hits = 0, near_hits = 0, wrong = 0;
-    forEachKnown(tree, [&](std::uint64_t voxel, bool is_occupied) {
-        if (voxels.inside.count(voxel)) {
-            ++accuracy.surface_voxels;
-            hits += is_occupied;
-            near_hits += voxels.confirmed.count(voxel);
-        } else if (!voxels.near.count(voxel)) {
-            ++accuracy.free_voxels;
-            wrong += is_occupied;
-        }
-    });
-    accuracy.surface_occupied = share(hits, accuracy.surface_voxels);
-    accuracy.surface_occupied_within_tolerance = share(near_hits, accuracy.surface_voxels);
-    accuracy.free_occupied = share(wrong, accuracy.free_voxels);
+    OctreeAccuracy accuracy = voxels.accuracy();
+    if (sight) accuracy.seen = voxels.seen();
     return accuracy;
 }
 
 std::string runOctreeEvaluation(const OctreeRequest& request) {
     const auto tree = loadBinaryOcTree(request.map);
-    const auto accuracy =
-        evaluateOctree(*tree, readPly(request.surface), alignmentOf(request), request.tolerance_m);
-    const auto percent = [](double value) { return 100 * value; };
-    Report report{std::filesystem::path(request.map).stem(), {}};
-    report.figures = {{"surface_voxels", static_cast<double>(accuracy.surface_voxels), "voxels", 0},
-                      {"surface_occupied", percent(accuracy.surface_occupied), "%", 2},
-                      {"surface_occupied_within_tolerance",
-                       percent(accuracy.surface_occupied_within_tolerance), "%", 2},
-                      {"free_voxels", static_cast<double>(accuracy.free_voxels), "voxels", 0},
-                      {"free_occupied", percent(accuracy.free_occupied), "%", 2}};
-    return format({report}, request.format);
+    const PlyModel surface = readPly(request.surface);
+    const auto sight = sightOf(request, surface);
+    const auto accuracy = evaluateOctree(*tree, surface, alignmentOf(request), request.tolerance_m,
+                                         sight ? &*sight : nullptr);
+    return format({{std::filesystem::path(request.map).stem(), figuresOf(accuracy)}},
+                  request.format);
 }
 
 }  // namespace rgbd_graphslam

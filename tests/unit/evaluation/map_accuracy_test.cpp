@@ -143,6 +143,17 @@ TEST(SurfaceSight, endsAtTheImageTheRangeAndWhatStandsBefore) {
     EXPECT_THROW(SurfaceSight(gridAt(0), Camera(), aboveAt(2)), Error);
 }
 
+TEST(SurfaceSight, leavesOutWhatIsSeenTooFlat) {
+    SightOptions options;
+    options.max_incidence_deg = 20;  // reaches tan(20 deg) * 2 m = 0.73 m around the middle
+    PlyModel wide = square();
+    for (auto& vertex : wide.vertices) vertex.head<2>() = 4 * vertex.head<2>().array() - 1.5f;
+    const SurfaceSight sight(wide, Camera(), aboveAt(2), options);
+    EXPECT_TRUE(sight.sees({0.5 + 0.70, 0.5, 0}));
+    EXPECT_FALSE(sight.sees({0.5 + 0.76, 0.5, 0}));
+    EXPECT_TRUE(SurfaceSight(wide, Camera(), aboveAt(2)).sees({0.5 + 0.76, 0.5, 0}));
+}
+
 TEST(MapAccuracy, completenessOfSeenLeavesOutWhatWasHidden) {
     PlyModel surface = square();
     for (const auto& vertex : square().vertices) {

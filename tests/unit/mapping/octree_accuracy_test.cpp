@@ -58,6 +58,29 @@ TEST(OctreeAccuracy, toleranceForgivesTheNeighbouringVoxel) {
     EXPECT_EQ(accuracy.free_occupied, 0);
 }
 
+TEST(OctreeAccuracy, weighsTheSeenSurfaceByItsAreaInTheVoxels) {
+    // The lowest row of voxels holds 3 cm of the wall's height, the others 5.
+    octomap::OcTree tree(0.05);
+    for (int y = 0; y < 20; ++y) {
+        for (int z = 1; z < 20; ++z)
+            tree.updateNode(0.525, 0.05 * y + 0.025, 0.05 * z + 0.025, true);
+    }
+    Trajectory before(1);  // looks along +x at the middle of the wall
+    before[0].T_world_cam.R = Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5).toRotationMatrix();
+    before[0].T_world_cam.t = {-1.5, 0.5, 0.5};
+    const SurfaceSight sight(wall(), Camera(), before);
+    EXPECT_FALSE(evaluateOctree(tree, wall(), {}, 0.01).seen);
+    const auto seen = evaluateOctree(tree, wall(), {}, 0.001, &sight).seen;
+    ASSERT_TRUE(seen);
+    EXPECT_NEAR(seen->area_m2, 0.96 * 0.96, 1e-6);
+    EXPECT_NEAR(seen->occupied, 1 - 0.03 / 0.96, 0.005);
+    EXPECT_EQ(seen->free, 0);
+    EXPECT_NEAR(evaluateOctree(tree, wall(), {}, 0.031, &sight).seen->occupied_within_tolerance, 1,
+                0.005);
+    for (int y = 0; y < 20; ++y) tree.updateNode(0.525, 0.05 * y + 0.025, 0.025, false);
+    EXPECT_NEAR(evaluateOctree(tree, wall(), {}, 0.001, &sight).seen->free, 0.03 / 0.96, 0.005);
+}
+
 TEST(OctreeAccuracy, movesTheMapOntoTheTruth) {
     PlyModel surface = wall();
     for (auto& vertex : surface.vertices) vertex += Eigen::Vector3f(3, -2, 1);

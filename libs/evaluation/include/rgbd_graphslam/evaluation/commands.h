@@ -1,6 +1,7 @@
 /** What rgbd-eval does: a request and a function for each of its commands. The functions read and
  *  write the files that the request names and return what is to be printed. */
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -59,15 +60,18 @@ struct SurfaceRequest {
     std::string map, surface;
     /** With both, the map is moved as the estimate is to fit the truth. */
     std::string estimate, truth;
+    /** Name or file; with it and `truth` it is told of what the camera saw, too. */
+    std::string camera;
+    SightOptions sight;
     ReportFormat format = ReportFormat::Text;
 };
 /** From the map's frame to the surface's. \throws Error as readTrajectory and evaluateAte do */
 Similarity alignmentOf(const SurfaceRequest& request);
+/** What the camera of a request saw of the surface on the true trajectory; nothing without a
+ * camera. \throws Error as readTrajectory and SurfaceSight do */
+std::optional<SurfaceSight> sightOf(const SurfaceRequest& request, const PlyModel& surface);
 
 struct MapRequest : SurfaceRequest {
-    /** Name or file; with it and `truth` completeness is told of what the camera saw, too. */
-    std::string camera;
-    SightOptions sight;
     MapAccuracyOptions options;
 };
 std::string runMap(const MapRequest& request);

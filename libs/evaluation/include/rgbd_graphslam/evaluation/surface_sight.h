@@ -12,6 +12,9 @@ namespace rgbd_graphslam {
 struct SightOptions {
     /** Depth along the optical axis within which the camera measures. */
     double min_range_m = 0.3, max_range_m = 5;
+    /** Angle between ray and normal up to which the camera measures. A Kinect's pattern is lost on
+     *  what it sees flatter than this. */
+    double max_incidence_deg = 80;
     /** Of the poses no more than so many are looked from, evenly chosen. */
     std::size_t max_views = 100;
 };
@@ -25,8 +28,9 @@ class SurfaceSight {
     SurfaceSight(const PlyModel& surface, const Camera& camera, const Trajectory& cameras,
                  const SightOptions& options = {});
 
-    /** Whether one of the views shows this place of the surface: within range, and no triangle
-     *  stands before it. \param p on the surface, give or take a millimetre */
+    /** Whether one of the views shows this place of the surface: within range, and seen
+     *  steeply enough, and no triangle stands before it. \param p on the surface, give or take a
+     * millimetre */
     bool sees(const Eigen::Vector3d& p) const;
 
   private:
@@ -38,10 +42,13 @@ class SurfaceSight {
     View render(const SE3& T_cam_world) const;
     void draw(std::size_t triangle, View& view, std::vector<float>& inverse_depth) const;
     bool shows(const View& view, const Eigen::Vector3d& p) const;
+    bool liesOn(std::int32_t triangle, const Eigen::Vector3d& p) const;
+    bool isSteep(std::int32_t triangle, const Eigen::Vector3d& ray) const;
 
     PlyModel surface_;
     Camera camera_;  // of a quarter of the pixels
     SightOptions options_;
+    double least_cosine_;
     std::vector<Eigen::Vector4d> planes_;  // normal and offset of each triangle, world
     std::vector<View> views_;
 };

@@ -15,7 +15,7 @@ struct MapOptions : Options {
     double min_range_m = 0.3;
     double max_range_m = 5.0;
     double edge_ratio = 0.03;
-    double hit_share = 0.1;
+    double hit_share = 0.05;
     bool drop_points_in_free_space = true;
     std::string upright = "gravity";
     int memory_limit_mb = 4096;
