@@ -39,10 +39,15 @@ MapOptions optionsOf(const CLI::App& app, const Arguments& arguments) {
 
 void print(const MapSummary& summary, const std::string& folder) {
     std::printf(
-        "keyframes      %zu\npoints         %zu\noctree leaves  %zu\ngrid           %d x %d cells\n"
-        "a keyframe     %.1f ms\nmemory         %.1f MB\nmaps in        %s\n",
+        "keyframes      %zu\npoints         %zu\noctree leaves  %zu\ngrid           %d x %d "
+        "cells\n",
         summary.keyframes, summary.points, summary.octree_leaves, summary.grid_width,
-        summary.grid_height, summary.insert_ms, summary.megabytes, folder.c_str());
+        summary.grid_height);
+    std::printf(
+        "a keyframe     %.1f ms CPU\nmemory         %.1f MB: points %.1f, octree %.1f\n"
+        "maps in        %s\n",
+        summary.insert_ms, summary.megabytes, summary.points_megabytes, summary.octree_megabytes,
+        folder.c_str());
 }
 
 }  // namespace

@@ -1,18 +1,16 @@
 /** The whole chain on synthetic sequences, whose truth is exact: rgbd-synth, tum2rawlog, rgbd-slam,
- *  rgbd-eval. Sequences are filmed once a build folder and kept there. */
+ *  rgbd-eval. */
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <ostream>
 
-#include "../support/run_program.h"
+#include "../support/synthetic_film.h"
 
 namespace rgbd_graphslam {
 namespace {
-namespace fs = std::filesystem;
 
 struct Scenario {
     const char* name;
@@ -29,23 +27,8 @@ const Scenario scenarios[] = {
     {"low-texture", 60, 0.030}, {"no-structure", 60, 0.010}, {"dark", 60, 0.015},
 };
 
-void runOrFail(const std::string& program, const std::string& arguments) {
-    const ProgramResult result = runProgram(program, arguments);
-    ASSERT_EQ(result.exit_code, 0) << program << " " << arguments << "\n" << result.err;
-}
-
-/** \return the sequence's folder; its rawlog lies beside it */
 std::string film(const Scenario& scenario) {
-    const std::string folder = std::string(RGBD_BINARY_DIR "/synthetic/") + scenario.name + "-" +
-                               std::to_string(scenario.frames);
-    const std::string rawlog = folder + ".rawlog";
-    if (fs::exists(rawlog)) return folder;
-    fs::remove_all(folder);
-    fs::create_directories(fs::path(folder).parent_path());
-    runOrFail("rgbd-synth", std::string(scenario.name) + " '" + folder + "' -q --frames " +
-                                std::to_string(scenario.frames));
-    runOrFail("tum2rawlog", "'" + folder + "' '" + rawlog + "' -q");
-    return folder;
+    return filmOf(scenario.name, "--frames " + std::to_string(scenario.frames));
 }
 
 class SlamOnSynthetic : public testing::TestWithParam<Scenario> {};

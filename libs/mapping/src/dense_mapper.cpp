@@ -32,13 +32,12 @@ DenseMapper::DenseMapper(const MapOptions& options, const Camera& camera)
     }
 }
 
-void DenseMapper::insert(const SE3& T_world_cam, const RgbdImage& image) {
+void DenseMapper::insert(const SE3& T_world_cam, const DepthView& view) {
     if (!T_world_cam.R.allFinite() || !T_world_cam.t.allFinite()) {
         throw Error(
-            "the pose of the keyframe at " + std::to_string(image.stamp_s) + " s is not finite",
+            "the pose of the keyframe at " + std::to_string(view.stamp_s) + " s is not finite",
             "check the trajectory");
     }
-    const DepthView view(image, rays_, options_);
     octree_volume_.insert(T_world_cam, view);
     if (grid_volume_) grid_volume_->insert(T_world_cam, view);
     points_.insert(T_world_cam, view);

@@ -112,7 +112,8 @@ cv::Mat1f cleanDepth(const RgbdImage& image, const Camera& camera, const MapOpti
 }
 
 DepthView::DepthView(const RgbdImage& image, const RayTable& ray_table, const MapOptions& options)
-    : rays(ray_table),
+    : stamp_s(image.stamp_s),
+      rays(ray_table),
       depth(cleanDepth(image, ray_table.camera(), options)),
       color(colorOf(image)),
       sight(ray_table.rectified(depth)),

@@ -4,8 +4,6 @@
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
 
-#include <algorithm>
-#include <chrono>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 
@@ -19,20 +17,14 @@
 #include "rgbd_graphslam/mapping/plan_view.h"
 #include "rgbd_graphslam/mapping/simple_map.h"
 #include "rgbd_graphslam/mapping/view_coverage.h"
+#include "rgbd_graphslam/slam/thread_clock.h"
 
 namespace rgbd_graphslam {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double millisecondsSince(Clock::time_point start) {
-    return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-}
-
 /** What one pass over the rawlog makes. */
 struct Maps {
     std::optional<Camera> camera;
-    std::optional<RayTable> rays;
     std::optional<DenseMapper> dense;
     std::optional<ViewCoverage> coverage;
     mrpt::maps::CSimpleMap simple;
@@ -41,24 +33,23 @@ struct Maps {
     void add(const Keyframe3D& keyframe, const MapInputs& inputs, const MapOptions& options) {
         if (!dense) {
             camera = keyframe.camera;
-            rays.emplace(keyframe.camera);
             dense.emplace(options, keyframe.camera);
             coverage.emplace(keyframe.camera, inputs.keyframes);
         }
         const SE3 T_world_cam = depthPose(keyframe.pose, keyframe.depth_stamp_s, inputs.trajectory);
-        const auto start = Clock::now();
-        dense->insert(T_world_cam, keyframe.image);
-        insert_ms += millisecondsSince(start);
+        const ThreadClock clock;
+        const DepthView view = dense->view(keyframe.image);
+        dense->insert(T_world_cam, view);
+        insert_ms += clock.cpuMs();
         coverage->add(keyframe.pose.T_world_cam);
         dense->checkMemory(coverage->share());
-        addKeyframe(simple, keyframe.depth_stamp_s, T_world_cam,
-                    DepthView(keyframe.image, *rays, options), options);
+        addKeyframe(simple, keyframe.depth_stamp_s, T_world_cam, view, options);
     }
 
     void finish() {
-        const auto start = Clock::now();
+        const ThreadClock clock;
         dense->finish();
-        insert_ms += millisecondsSince(start);
+        insert_ms += clock.cpuMs();
     }
 };
 
@@ -131,7 +122,10 @@ MapSummary writeMaps(const MapInputs& all, const MapOptions& options,
     MapSummary summary = writeFiles(inputs, maps, out_folder);
     summary.keyframes = found;
     summary.insert_ms = maps.insert_ms / static_cast<double>(found);
-    summary.megabytes = 1e-6 * static_cast<double>(maps.dense->bytes());
+    const auto megabytes = [](std::size_t bytes) { return 1e-6 * static_cast<double>(bytes); };
+    summary.megabytes = megabytes(maps.dense->bytes());
+    summary.points_megabytes = megabytes(maps.dense->pointBytes());
+    summary.octree_megabytes = megabytes(maps.dense->octreeBytes());
     return summary;
 }
 

@@ -15,8 +15,14 @@ class DenseMapper {
   public:
     DenseMapper(const MapOptions& options, const Camera& camera);
 
-    /** \throws Error when the pose is not finite or the image does not fit the camera */
-    void insert(const SE3& T_world_cam, const RgbdImage& image);
+    /** What insert() takes; valid as long as this. \throws Error when it does not fit the camera */
+    DepthView view(const RgbdImage& image) const { return {image, rays_, options_}; }
+
+    /** \throws Error when the pose is not finite */
+    void insert(const SE3& T_world_cam, const DepthView& view);
+    void insert(const SE3& T_world_cam, const RgbdImage& image) {
+        insert(T_world_cam, view(image));
+    }
 
     /** \param share of the whole that is inserted by now, in (0, 1]; see ViewCoverage
      *  \throws Error when the maps outgrow memory_limit_mb, or will when all is inserted, naming
@@ -36,6 +42,8 @@ class DenseMapper {
     const OccupancyVolume& volume() const { return octree_volume_; }
     int keyframes() const { return keyframes_; }
     std::size_t bytes() const;
+    std::size_t pointBytes() const { return points_.bytes(); }
+    std::size_t octreeBytes() const { return octree_volume_.bytes(); }
 
   private:
     /** \param growth factor on the memory until all is inserted */

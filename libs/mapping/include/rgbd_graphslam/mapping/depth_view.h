@@ -44,6 +44,7 @@ cv::Mat1f cleanDepth(const RgbdImage& image, const Camera& camera, const MapOpti
 struct DepthView {
     DepthView(const RgbdImage& image, const RayTable& ray_table, const MapOptions& options);
 
+    double stamp_s;  // of the image
     const RayTable& rays;
     cv::Mat1f depth;  // m, 0 = none
     cv::Mat3b color;  // BGR, of the depth's size; grey where the image has no colour

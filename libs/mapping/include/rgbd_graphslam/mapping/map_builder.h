@@ -10,8 +10,9 @@ namespace rgbd_graphslam {
 struct MapSummary {
     std::size_t keyframes = 0, points = 0, octree_leaves = 0;
     int grid_width = 0, grid_height = 0;  // cells
-    double insert_ms = 0;                 // a keyframe, all maps
-    double megabytes = 0;                 // of the maps in memory
+    double insert_ms = 0;                 // CPU, a keyframe, all maps
+    /** Of the maps in memory; the grid is made of the octree where their resolutions are equal. */
+    double megabytes = 0, points_megabytes = 0, octree_megabytes = 0;
 };
 
 /** Writes points.ply, points.pcd, points.metricmap, octree.bt, octree.ot, grid.gridmap.gz,

@@ -2,7 +2,7 @@
 #pragma once
 #include <mrpt/opengl/COpenGLScene.h>
 
-#include "rgbd_graphslam/mapping/map_builder.h"
+#include "rgbd_graphslam/mapping/map_inputs.h"
 #include "rgbd_graphslam/mapping/point_fusion.h"
 
 namespace rgbd_graphslam {

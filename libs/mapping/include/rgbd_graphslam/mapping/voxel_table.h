@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "rgbd_graphslam/mapping/chunked_vector.h"
+
 namespace rgbd_graphslam {
 
 /** Integer coordinates of a voxel; the voxel spans [x, x + 1) times the voxel's edge. */
@@ -30,8 +32,8 @@ inline VoxelIndex voxelOfKey(std::uint64_t key) {
 
 /** Two levels: cubes of 4 x 4 x 4 voxels in a hash table with linear probing, cells within. Images
  *  ask for neighbours one after the other, which then mostly share a cube. Entries stay in order of
- *  insertion, so that everything made from them is the same each run. References are valid until
- * the next insertion. */
+ *  insertion, so that everything made from them is the same each run. References stay
+ * valid until clear(). */
 template <class Cell>
 class VoxelTable {
   public:
@@ -72,7 +74,7 @@ class VoxelTable {
         }
     }
 
-    const std::vector<Entry>& entries() const { return entries_; }
+    const ChunkedVector<Entry>& entries() const { return entries_; }
 
     /** Keeps the memory for the next use. */
     void clear() {
@@ -83,8 +85,7 @@ class VoxelTable {
     }
 
     std::size_t bytes() const {
-        return entries_.capacity() * sizeof(Entry) + cubes_.capacity() * sizeof(Cube) +
-               slots_.capacity() * sizeof(slots_[0]);
+        return entries_.bytes() + cubes_.bytes() + slots_.capacity() * sizeof(slots_[0]);
     }
 
   private:
@@ -141,8 +142,8 @@ class VoxelTable {
     }
 
     std::vector<std::uint32_t> slots_;  // number of the cube, from 1; 0 = empty
-    std::vector<Cube> cubes_;
-    std::vector<Entry> entries_;
+    ChunkedVector<Cube> cubes_;
+    ChunkedVector<Entry> entries_;
     std::size_t last_ = 0;  // cube asked for last
 };
 
