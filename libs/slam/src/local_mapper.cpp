@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
-#include "rgbd_graphslam/slam/global_adjustment.h"
+#include "rgbd_graphslam/slam/bundle_adjustment.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
 #include "rgbd_graphslam/slam/matcher.h"
-#include "rgbd_graphslam/slam/thread_clock.h"
 #include "rgbd_graphslam/slam/triangulation.h"
 
 namespace rgbd_graphslam {
@@ -22,22 +21,8 @@ constexpr int observers_that_make_redundant = 3;
 
 }  // namespace
 
-/** An adjustment at work: the problem and which part of the map each piece stands for. */
-struct LocalMapper::Job {
-    int newest = 0;  // keyframe around which is adjusted
-    BundleProblem problem;
-    std::vector<int> keyframes, landmarks;
-    std::vector<int> observation_keyframe;
-    double cpu_ms = 0;
-    std::future<void> done;
-};
-
 LocalMapper::LocalMapper(const SlamOptions& options, const Camera& camera, SlamMap& map)
     : options_(options), camera_(camera), map_(map) {}
-
-LocalMapper::~LocalMapper() {
-    if (pending_) pending_->done.wait();
-}
 
 void LocalMapper::insert(int keyframe) {
     createFromDepth(keyframe);
@@ -49,22 +34,18 @@ void LocalMapper::insert(int keyframe) {
 }
 
 void LocalMapper::startAdjustment(int keyframe) {
-    pending_ = makeJob(keyframe);
-    if (pending_->problem.observations.empty()) return pending_.reset();  // the first of its part
-    Job* job = pending_.get();
+    MapAdjustment adjustment = adjustmentAround(keyframe);
+    if (adjustment.problem.observations.empty()) return;  // the first of its part
+    adjusted_keyframe_ = keyframe;
     const int iterations = options_.mapper.iterations;
-    job->done = std::async(std::launch::async, [job, iterations] {
-        const ThreadClock clock;
-        adjustBundle(job->problem, iterations);
-        job->cpu_ms = clock.cpuMs();
-    });
+    pending_ = std::make_unique<AdjustmentAtWork>(
+        std::move(adjustment), [iterations](BundleProblem& p) { adjustBundle(p, iterations); });
 }
 
 double LocalMapper::handOver() {
     if (!pending_) return 0;
-    pending_->done.get();
-    apply(*pending_);
-    const double cpu_ms = pending_->cpu_ms;
+    const double cpu_ms = pending_->wait();
+    pending_->adjustment().apply(map_);
     pending_.reset();
     return cpu_ms;
 }
@@ -72,7 +53,7 @@ double LocalMapper::handOver() {
 void LocalMapper::save(ByteWriter& out) const {
     putNumbers(recent_, out);
     putFlag(pending(), out);
-    if (pending()) out.putCount(pending_->newest);
+    if (pending()) out.putCount(adjusted_keyframe_);
 }
 
 void LocalMapper::load(ByteReader& in) {
@@ -206,109 +187,21 @@ void LocalMapper::cullKeyframes(int id) {
 }
 
 /** The newest keyframe and its best neighbours move; others that see the same points hold them. */
-std::unique_ptr<LocalMapper::Job> LocalMapper::makeJob(int id) const {
-    auto job = std::make_unique<Job>();
-    job->newest = id;
-    std::vector<int>& keyframes = job->keyframes;
-    keyframes.push_back(id);
+MapAdjustment LocalMapper::adjustmentAround(int id) const {
+    std::vector<int> free = {id};
     for (const Covisibility& c : map_.covisible(id)) {
-        if (static_cast<int>(keyframes.size()) >= options_.mapper.window_keyframes) break;
-        if (c.keyframe != 0) keyframes.push_back(c.keyframe);
+        if (static_cast<int>(free.size()) >= options_.mapper.window_keyframes) break;
+        if (c.keyframe != 0) free.push_back(c.keyframe);
     }
-    std::sort(keyframes.begin(), keyframes.end());
-    job->problem.free_cameras = static_cast<int>(keyframes.size());
-    job->landmarks = landmarksSeenBy(keyframes);
-    int fixed = 0;
-    const std::vector<int> free = keyframes;
-    for (const Covisibility& c : map_.observers(job->landmarks)) {
+    std::sort(free.begin(), free.end());
+    std::vector<int> landmarks = landmarksSeenBy(free, map_);
+    std::vector<int> fixed;
+    for (const Covisibility& c : map_.observers(landmarks)) {
         if (std::binary_search(free.begin(), free.end(), c.keyframe)) continue;
-        if (fixed++ >= options_.mapper.max_fixed_keyframes) break;
-        keyframes.push_back(c.keyframe);
+        if (static_cast<int>(fixed.size()) >= options_.mapper.max_fixed_keyframes) break;
+        fixed.push_back(c.keyframe);
     }
-    fillProblem(*job);
-    return job;
-}
-
-/** Landmarks with at least two observations among what the keyframes see, by rising id. */
-std::vector<int> LocalMapper::landmarksSeenBy(const std::vector<int>& keyframes) const {
-    std::vector<int> landmarks;
-    for (const int keyframe : keyframes) {
-        for (const int landmark : map_.keyframe(keyframe).landmarks) {
-            if (landmark == no_landmark) continue;
-            if (map_.landmark(landmark).observations.size() >= 2) landmarks.push_back(landmark);
-        }
-    }
-    std::sort(landmarks.begin(), landmarks.end());
-    landmarks.erase(std::unique(landmarks.begin(), landmarks.end()), landmarks.end());
-    return landmarks;
-}
-
-void LocalMapper::fillProblem(Job& job) const {
-    BundleProblem& problem = job.problem;
-    problem.camera = camera_;
-    std::vector<int> camera_of(map_.keyframes().size(), -1);
-    for (std::size_t c = 0; c < job.keyframes.size(); ++c) {
-        camera_of[job.keyframes[c]] = static_cast<int>(c);
-        problem.T_cam_world.push_back(map_.keyframe(job.keyframes[c]).T_cam_world);
-    }
-    for (std::size_t p = 0; p < job.landmarks.size(); ++p) {
-        const Landmark& landmark = map_.landmark(job.landmarks[p]);
-        problem.points.push_back(landmark.position);
-        for (const Observation& o : landmark.observations) {
-            if (camera_of[o.keyframe] < 0) continue;
-            const Keypoint& k = map_.keyframe(o.keyframe).frame.keypoints[o.keypoint];
-            problem.observations.push_back(
-                {camera_of[o.keyframe], static_cast<int>(p),
-                 measurementOf(k, map_.scaleOf(k.octave), options_.sensor)});
-            job.observation_keyframe.push_back(o.keyframe);
-        }
-    }
-}
-
-void LocalMapper::apply(const Job& job) {
-    const BundleProblem& problem = job.problem;
-    for (int c = 0; c < problem.free_cameras; ++c) {
-        moveUnadjusted(job.keyframes[c], problem.T_cam_world[c], job.landmarks);
-        map_.setPose(job.keyframes[c], problem.T_cam_world[c]);
-    }
-    for (std::size_t p = 0; p < job.landmarks.size(); ++p) {
-        if (map_.landmark(job.landmarks[p]).alive) {
-            map_.landmark(job.landmarks[p]).position = problem.points[p];
-        }
-    }
-    for (std::size_t o = 0; o < problem.observations.size(); ++o) {
-        if (!problem.observations[o].outlier) continue;
-        const int landmark = job.landmarks[problem.observations[o].point];
-        if (map_.landmark(landmark).alive) {
-            map_.removeObservation(landmark, job.observation_keyframe[o]);
-        }
-    }
-}
-
-/** Landmarks that one keyframe alone has seen took no part in the adjustment; left behind, they
- * would pull the next frames back to where their keyframe was. */
-void LocalMapper::moveUnadjusted(int keyframe, const SE3& new_T_cam_world,
-                                 const std::vector<int>& adjusted) {
-    const SE3 motion = new_T_cam_world.inverse() * map_.keyframe(keyframe).T_cam_world;
-    for (const int id : map_.keyframe(keyframe).landmarks) {
-        if (id == no_landmark || !map_.landmark(id).alive) continue;
-        if (std::binary_search(adjusted.begin(), adjusted.end(), id)) continue;
-        map_.landmark(id).position = motion * map_.landmark(id).position;
-    }
-}
-
-void LocalMapper::adjustAll(int iterations) {
-    Job job;
-    for (const Keyframe& keyframe : map_.keyframes()) {
-        if (!keyframe.culled && keyframe.id != 0) job.keyframes.push_back(keyframe.id);
-    }
-    if (job.keyframes.empty()) return;
-    job.problem.free_cameras = static_cast<int>(job.keyframes.size());
-    job.landmarks = landmarksSeenBy(job.keyframes);
-    job.keyframes.push_back(0);
-    fillProblem(job);
-    adjustBundleSparse(job.problem, iterations);
-    apply(job);
+    return {map_, camera_, options_.sensor, free, fixed, std::move(landmarks)};
 }
 
 }  // namespace rgbd_graphslam

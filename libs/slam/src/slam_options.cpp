@@ -49,8 +49,14 @@ void MapperOptions::describe(OptionVisitor& v) {
         "hand_over_frames", hand_over_frames, 1, 100, "frames",
         "After a keyframe, when the adjusted map reaches the tracker (fixed, so that the result "
         "does not depend on timing)");
+    v.integer("loop_iterations", loop_iterations, 1, 100, "",
+              "Steps of the adjustment of everything after a loop");
+    v.integer("loop_hand_over_frames", loop_hand_over_frames, 1, 10000, "frames",
+              "After a loop, when that one reaches the tracker");
     v.flag("triangulate", triangulate, "Landmarks from two views where no depth was read");
     v.flag("local_adjustment", local_adjustment, "Bundle adjustment around each new keyframe");
+    v.flag("loop_adjustment", loop_adjustment,
+           "Bundle adjustment of everything after a loop, in the background");
     v.flag("final_adjustment", final_adjustment, "Bundle adjustment of everything at the end");
 }
 

@@ -6,6 +6,7 @@
 #include "keyframe_decision.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/features/frame_builder.h"
+#include "rgbd_graphslam/slam/full_adjuster.h"
 #include "rgbd_graphslam/slam/local_mapper.h"
 #include "rgbd_graphslam/slam/loop_closer.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
@@ -109,6 +110,7 @@ class VisualSlam::Implementation {
           map(options.features.scale_factor, options.features.levels),
           tracker(options, camera, map),
           mapper(options, camera, map),
+          full_adjuster(options, camera, map),
           closer(options, camera, map),
           decision(options.keyframes) {}
 
@@ -118,6 +120,7 @@ class VisualSlam::Implementation {
     TrackedFrame track(Frame frame);
     TrackedFrame view(const FrameRecord& record) const;
     void handOver();
+    void handOverAll();
     void join(const PoseEdge& loop);
 
     const SlamOptions options;
@@ -126,6 +129,7 @@ class VisualSlam::Implementation {
     SlamMap map;
     Tracker tracker;
     LocalMapper mapper;
+    FullAdjuster full_adjuster;
     LoopCloser closer;
     WeakTracker weak;
     /** While the map is not seen: follows one frame for as long as it can, so that errors do not
@@ -135,6 +139,7 @@ class VisualSlam::Implementation {
     KeyframeDecision decision;
     std::vector<FrameRecord> records;
     int frames_since_keyframe = 0;
+    int frames_since_loop = 0;
     /** The map may not change. */
     bool frozen = false;
     /** Of the next keyframe to the last one. */
@@ -170,6 +175,7 @@ void VisualSlam::Implementation::save(ByteWriter& out) const {
     map.save(out);
     tracker.save(out);
     mapper.save(out);
+    full_adjuster.save(out);
     closer.save(out);
     weak.save(out);
     putFlag(anchor.has_value(), out);
@@ -177,7 +183,7 @@ void VisualSlam::Implementation::save(ByteWriter& out) const {
     decision.save(out);
     out.putCount(records.size());
     for (const FrameRecord& record : records) put(record, out);
-    for (const int number : {anchor_inliers, frames_since_keyframe, astray}) {
+    for (const int number : {anchor_inliers, frames_since_keyframe, frames_since_loop, astray}) {
         out.put<std::int32_t>(number);
     }
     for (const bool flag : {frozen, placed}) putFlag(flag, out);
@@ -188,13 +194,14 @@ void VisualSlam::Implementation::load(ByteReader& in) {
     map.load(in, camera);
     tracker.load(in);
     mapper.load(in);
+    full_adjuster.load(in);
     closer.load(in);
     weak.load(in);
     if (getFlag(in)) anchor.emplace(options, camera, map).load(in);
     decision.load(in, map.keyframes().size());
     records.resize(in.getCount(record_bytes));
     for (FrameRecord& record : records) record = getRecord(in, map.keyframes().size());
-    for (int* number : {&anchor_inliers, &frames_since_keyframe, &astray}) {
+    for (int* number : {&anchor_inliers, &frames_since_keyframe, &frames_since_loop, &astray}) {
         *number = in.get<std::int32_t>();
     }
     for (bool* flag : {&frozen, &placed}) *flag = getFlag(in);
@@ -209,7 +216,9 @@ TrackedFrame VisualSlam::Implementation::track(Frame frame) {
                     "leave it out or sort the frames");
     }
     ++frames_since_keyframe;
+    ++frames_since_loop;
     if (mapper.pending() && frames_since_keyframe >= options.mapper.hand_over_frames) handOver();
+    if (frames_since_loop == options.mapper.loop_hand_over_frames) handOverAll();
     FrameRecord record;
     record.stamp_s = frame.stamp_s;
     if (map.keyframes().empty()) {
@@ -381,6 +390,15 @@ void VisualSlam::Implementation::handOver() {
     times.add("local-adjustment", adjustment_ms, adjustment_ms);
 }
 
+/** The adjustment of everything as well, if one is under way. */
+void VisualSlam::Implementation::handOverAll() {
+    handOver();
+    if (!full_adjuster.pending()) return;
+    double adjustment_ms = 0;
+    times.measure("hand-over", [&] { adjustment_ms = full_adjuster.handOver(); });
+    times.add("loop-adjustment", adjustment_ms, adjustment_ms);
+}
+
 TrackedFrame VisualSlam::Implementation::view(const FrameRecord& record) const {
     TrackedFrame frame;
     frame.stamp_s = record.stamp_s;
@@ -425,6 +443,8 @@ std::vector<PoseEdge> VisualSlam::findLoops(int keyframe) {
     std::vector<PoseEdge> loops;
     if (!impl_->options.loops.enabled) return loops;
     impl_->times.measure("find-loops", [&] { loops = impl_->closer.findLoops(keyframe); });
+    // What comes next asks where keyframes are, and adjusts everything anew.
+    if (!loops.empty()) impl_->handOverAll();
     for (const PoseEdge& loop : loops) impl_->join(loop);
     return loops;
 }
@@ -437,12 +457,16 @@ void VisualSlam::correct(const std::vector<SE3>& T_world_keyframe) {
     impl_->handOver();
     impl_->times.measure("correct",
                          [&] { impl_->closer.correct(T_world_keyframe, impl_->mapper); });
+    if (!impl_->options.mapper.loop_adjustment) return;
+    impl_->full_adjuster.start(impl_->options.mapper.loop_iterations);
+    impl_->frames_since_loop = 0;
 }
 
 void VisualSlam::finish() {
-    impl_->handOver();
+    impl_->handOverAll();
     if (impl_->frozen || !impl_->options.mapper.final_adjustment) return;
-    impl_->times.measure("final-adjustment", [&] { impl_->mapper.adjustAll(final_iterations); });
+    impl_->times.measure("final-adjustment",
+                         [&] { impl_->full_adjuster.adjustNow(final_iterations); });
 }
 
 std::vector<TrackedFrame> VisualSlam::frames() const {

@@ -1,11 +1,10 @@
 /** The map around the newest keyframe. */
 #pragma once
-#include <future>
 #include <memory>
 #include <optional>
 #include <vector>
 
-#include "rgbd_graphslam/slam/bundle_adjustment.h"
+#include "rgbd_graphslam/slam/map_adjustment.h"
 #include "rgbd_graphslam/slam/slam_map.h"
 
 namespace rgbd_graphslam {
@@ -17,7 +16,6 @@ class LocalMapper {
   public:
     /** All arguments must outlive the mapper. */
     LocalMapper(const SlamOptions& options, const Camera& camera, SlamMap& map);
-    ~LocalMapper();
 
     /** Grows the map by a keyframe that was just added with its tracked landmarks, and starts the
      *  adjustment. handOver() must have been called since the last time. */
@@ -39,31 +37,24 @@ class LocalMapper {
      *  one reveals a double landmark, which is fused. */
     void joinInto(int keyframe, std::vector<int> landmarks);
 
-    /** Adjusts all keyframes and landmarks at once (Ceres), keyframe 0 held. */
-    void adjustAll(int iterations);
-
   private:
-    struct Job;
     void startAdjustment(int keyframe);
     void createFromDepth(int keyframe);
     void triangulateWithNeighbours(int keyframe);
     void joinWithNeighbours(int keyframe);
     void join(int landmark, int keyframe, int keypoint);
     void cullLandmarks(int keyframe);
-    void moveUnadjusted(int keyframe, const SE3& new_T_cam_world, const std::vector<int>& adjusted);
     void cullKeyframes(int keyframe);
     bool isRedundant(const Landmark& landmark, int keyframe, int octave) const;
     double redundancy(const Keyframe& keyframe) const;
-    std::unique_ptr<Job> makeJob(int keyframe) const;
-    std::vector<int> landmarksSeenBy(const std::vector<int>& keyframes) const;
-    void fillProblem(Job& job) const;
-    void apply(const Job& job);
+    MapAdjustment adjustmentAround(int keyframe) const;
 
     const SlamOptions& options_;
     const Camera& camera_;
     SlamMap& map_;
     std::vector<int> recent_;  // landmarks still on probation
-    std::unique_ptr<Job> pending_;
+    std::unique_ptr<AdjustmentAtWork> pending_;
+    int adjusted_keyframe_ = 0;  // around which the pending adjustment is
 };
 
 }  // namespace rgbd_graphslam

@@ -54,8 +54,11 @@ struct MapperOptions : Options {
     int max_fixed_keyframes = 10;
     int iterations = 6;
     int hand_over_frames = 3;
+    int loop_iterations = 5;
+    int loop_hand_over_frames = 60;
     bool triangulate = true;
     bool local_adjustment = true;
+    bool loop_adjustment = true;
     bool final_adjustment = true;
 
     const char* section() const override { return "MapperOptions"; }

@@ -1,0 +1,67 @@
+#include "rgbd_graphslam/slam/full_adjuster.h"
+
+#include "rgbd_graphslam/slam/global_adjustment.h"
+#include "rgbd_graphslam/slam/map_encoding.h"
+
+namespace rgbd_graphslam {
+
+FullAdjuster::FullAdjuster(const SlamOptions& options, const Camera& camera, SlamMap& map)
+    : options_(options), camera_(camera), map_(map) {}
+
+/** Nothing while there is only one keyframe. */
+std::optional<MapAdjustment> FullAdjuster::wholeMap() const {
+    std::vector<int> free;
+    for (const Keyframe& keyframe : map_.keyframes()) {
+        if (!keyframe.culled && keyframe.id != 0) free.push_back(keyframe.id);
+    }
+    if (free.empty()) return std::nullopt;
+    auto landmarks = landmarksSeenBy(free, map_);
+    return MapAdjustment(map_, camera_, options_.sensor, std::move(free), {0},
+                         std::move(landmarks));
+}
+
+void FullAdjuster::start(int iterations) {
+    begun_ = wholeMap();
+    if (!begun_) return;
+    iterations_ = iterations;
+    solveInBackground(*begun_);
+}
+
+void FullAdjuster::solveInBackground(MapAdjustment adjustment) {
+    const int iterations = iterations_;
+    pending_ = std::make_unique<AdjustmentAtWork>(
+        std::move(adjustment),
+        [iterations](BundleProblem& problem) { adjustBundleSparse(problem, iterations); });
+}
+
+double FullAdjuster::handOver() {
+    const double cpu_ms = pending_->wait();
+    pending_->adjustment().carryYounger(map_);
+    pending_->adjustment().apply(map_);
+    pending_.reset();
+    begun_.reset();
+    return cpu_ms;
+}
+
+void FullAdjuster::adjustNow(int iterations) {
+    auto adjustment = wholeMap();
+    if (!adjustment) return;
+    adjustBundleSparse(adjustment->problem, iterations);
+    adjustment->apply(map_);
+}
+
+void FullAdjuster::save(ByteWriter& out) const {
+    putFlag(pending(), out);
+    if (!pending()) return;
+    out.putCount(iterations_);
+    begun_->save(out);
+}
+
+void FullAdjuster::load(ByteReader& in) {
+    if (!getFlag(in)) return;
+    iterations_ = static_cast<int>(in.get<std::uint32_t>());
+    begun_.emplace(in, map_, camera_);
+    solveInBackground(*begun_);
+}
+
+}  // namespace rgbd_graphslam
