@@ -102,7 +102,10 @@ void LiveFeed::sendMap(const GraphSlamSession& session) {
     for (const KeyframeView& keyframe : session.slam().keyframes()) {
         map.keyframes.push_back({keyframe.stamp_s, T_base_cam * keyframe.T_world_cam});
     }
-    for (const PoseEdge& loop : session.slam().loops()) map.loops.emplace_back(loop.from, loop.to);
+    for (const PoseEdge& edge : session.slam().poseGraph().edges) {
+        if (edge.kind == EdgeKind::Loop) map.loops.emplace_back(edge.from, edge.to);
+        if (edge.kind == EdgeKind::Covisibility) map.covisibility.emplace_back(edge.from, edge.to);
+    }
     server_->post([map = std::move(map)] { return encode(map); });
 }
 

@@ -1,24 +1,17 @@
 #include "output_texts.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/evaluation/statistics.h"
 
 namespace rgbd_graphslam {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-    char text[256];
-    std::snprintf(text, sizeof(text), format, values...);
-    return text;
-}
 
 Json toJson(const StageFigures& figures) {
     return {{"mean", figures.mean},
@@ -91,6 +84,13 @@ std::string framesCsv(const std::vector<TrackedFrame>& frames) {
         text += (frame.keyframe ? std::to_string(*frame.keyframe) : "") + ",";
         text += (frame.origin == FrameOrigin::Lost ? "" : std::to_string(frame.part)) + "\n";
     }
+    return text;
+}
+
+std::string frameTimesCsv(const std::vector<FrameTime>& times) {
+    std::string text = "stamp_s,wall_ms\n";
+    for (const FrameTime& time : times)
+        text += formatted("%.6f,%.3f\n", time.stamp_s, time.wall_ms);
     return text;
 }
 

@@ -10,6 +10,9 @@ namespace rgbd_graphslam {
 /** A line a frame: stamp, origin, inliers, keyframe id or nothing. */
 std::string framesCsv(const std::vector<TrackedFrame>& frames);
 
+/** A line a frame: stamp, and how long tracking it took. */
+std::string frameTimesCsv(const std::vector<FrameTime>& times);
+
 /** A line an edge: the two keyframes and how many landmarks both see. */
 std::string covisibilityCsv(const std::vector<PoseEdge>& edges);
 

@@ -206,7 +206,8 @@ void Job::trackOne(const StreamedFrame& frame) {
     ++report_.frames;
     const Stopwatch watch;
     const TrackedFrame tracked = session_.step(frame.observation, frame.prepared);
-    live_feed_.note(frame, tracked, 1e3 * watch.seconds(), session_);
+    report_.frame_times.push_back({stamp_s, 1e3 * watch.seconds()});
+    live_feed_.note(frame, tracked, report_.frame_times.back().wall_ms, session_);
     if (!tracked.keyframe) return;
     noteKeyframe(*tracked.keyframe);
     const RgbdImage image = toRgbdImage(frame.observation);
@@ -347,6 +348,7 @@ void Job::writeReport() {
 void Job::write() {
     writeTextAtomically(path("config.ini"), configText(job_.options));
     writeTextAtomically(path("frames.csv"), framesCsv(session_.slam().frames()));
+    writeTextAtomically(path("frame_times.csv"), frameTimesCsv(report_.frame_times));
     if (start_ && located().empty()) {
         throw Error("none of the " + std::to_string(report_.frames) + " frames of '" + job_.rawlog +
                         "' was found in the map of '" + job_.map_folder + "'",

@@ -133,18 +133,31 @@ LiveFrame readFrame(Reader& in) {
     return frame;
 }
 
+void writeEdges(Writer& out, const std::vector<std::pair<int, int>>& edges) {
+    std::vector<int> ends;
+    for (const auto& [from, to] : edges) ends.insert(ends.end(), {from, to});
+    out.putList(ends);
+}
+
+std::vector<std::pair<int, int>> readEdges(Reader& in, std::size_t keyframes) {
+    const auto ends = in.getList<int>();
+    std::vector<std::pair<int, int>> edges;
+    for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
+        for (const int end : {ends[i], ends[i + 1]}) {
+            if (end < 0 || static_cast<std::size_t>(end) >= keyframes)
+                throw Error("a live message has an edge to nowhere");
+        }
+        edges.emplace_back(ends[i], ends[i + 1]);
+    }
+    return edges;
+}
+
 LiveMap readMap(Reader& in) {
     LiveMap map;
     map.path = in.getTrajectory();
     map.keyframes = in.getTrajectory();
-    const auto ends = in.getList<int>();
-    const int keyframes = static_cast<int>(map.keyframes.size());
-    for (std::size_t i = 0; i + 1 < ends.size(); i += 2) {
-        for (const int end : {ends[i], ends[i + 1]}) {
-            if (end < 0 || end >= keyframes) throw Error("a live message has a loop to nowhere");
-        }
-        map.loops.emplace_back(ends[i], ends[i + 1]);
-    }
+    map.loops = readEdges(in, map.keyframes.size());
+    map.covisibility = readEdges(in, map.keyframes.size());
     return map;
 }
 
@@ -152,9 +165,8 @@ void write(Writer& out, const LiveMap& map) {
     out.put(map_tag);
     out.putTrajectory(map.path);
     out.putTrajectory(map.keyframes);
-    std::vector<int> ends;
-    for (const auto& [from, to] : map.loops) ends.insert(ends.end(), {from, to});
-    out.putList(ends);
+    writeEdges(out, map.loops);
+    writeEdges(out, map.covisibility);
 }
 
 cv::Mat everyNth(const cv::Mat& image, int step) {

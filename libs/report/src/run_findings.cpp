@@ -2,19 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+
+#include "rgbd_graphslam/core/formatted.h"
 
 namespace rgbd_graphslam {
 namespace {
 
 constexpr int few_landmarks = 50;
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-    char text[256];
-    std::snprintf(text, sizeof(text), format, values...);
-    return text;
-}
 
 std::string framesText(std::size_t count) {
     return std::to_string(count) + (count == 1 ? " frame" : " frames");

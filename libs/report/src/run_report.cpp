@@ -1,25 +1,18 @@
 #include "rgbd_graphslam/report/run_report.h"
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 
 #include "page_template.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/report/html.h"
 #include "rgbd_graphslam/report/run_findings.h"
 #include "rgbd_graphslam/report/svg_chart.h"
 
 namespace rgbd_graphslam {
 namespace {
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-    char text[256];
-    std::snprintf(text, sizeof(text), format, values...);
-    return text;
-}
 
 /** Nothing without content. \param title plain text \param content HTML */
 std::string section(const std::string& title, const std::string& content,

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
+#include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/report/html.h"
 
 namespace rgbd_graphslam {
@@ -13,13 +13,6 @@ namespace {
 constexpr int width_px = 560, plan_height_px = 380, time_height_px = 190;
 constexpr int left_px = 46, right_px = 12, top_px = 26, bottom_px = 34;
 constexpr std::size_t most_points = 2000;
-
-template <class... Values>
-std::string formatted(const char* format, Values... values) {
-    char text[256];
-    std::snprintf(text, sizeof(text), format, values...);
-    return text;
-}
 
 struct Range {
     double low = 0, high = 1;

@@ -53,6 +53,13 @@ void VertexBuffer::write(std::size_t first, const Vertices& vertices) {
     size_ = std::max(size_, end);
 }
 
+Vertices VertexBuffer::read(std::size_t first, std::size_t count) const {
+    Vertices vertices(count);
+    glBindBuffer(GL_ARRAY_BUFFER, buffer_);
+    glGetBufferSubData(GL_ARRAY_BUFFER, bytesOf(first), bytesOf(count), vertices.data());
+    return vertices;
+}
+
 void VertexBuffer::reserve(std::size_t capacity) {
     GLuint larger = 0;
     glGenBuffers(1, &larger);
@@ -132,13 +139,15 @@ void RenderTarget::bind() const {
     glViewport(0, 0, size_px_.x(), size_px_.y());
 }
 
-void RenderTarget::copyToWindow(const cv::Rect& area) const {
+void RenderTarget::copyToWindow(const cv::Rect& area, const Eigen::Vector2i& window_px) const {
     const int left = area.x, right = area.x + area.width;
-    const int top = size_px_.y() - area.y, bottom = top - area.height;
+    const int top = window_px.y() - area.y, bottom = top - area.height;
+    const auto x = [&](int window_x) { return window_x * size_px_.x() / window_px.x(); };
+    const auto y = [&](int window_y) { return window_y * size_px_.y() / window_px.y(); };
     glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, 0);
-    glBlitFramebuffer(left, bottom, right, top, left, bottom, right, top, GL_COLOR_BUFFER_BIT,
-                      GL_NEAREST);
+    glBlitFramebuffer(x(left), y(bottom), x(right), y(top), left, bottom, right, top,
+                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 

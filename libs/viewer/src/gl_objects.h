@@ -24,6 +24,8 @@ class VertexBuffer {
     /** Writes from position `first` on; what is there before stays. */
     void write(std::size_t first, const Vertices& vertices);
     std::size_t size() const { return size_; }
+    /** Slow: they come back from graphics memory. */
+    Vertices read(std::size_t first, std::size_t count) const;
     /** For the draw calls that follow. */
     void bind() const { glBindVertexArray(array_); }
 
@@ -70,10 +72,9 @@ class RenderTarget {
     /** Does nothing when the size stays. */
     void resize(const Eigen::Vector2i& size_px);
     void bind() const;
-    /** Copies the colours to the same place of the window's back buffer.
-     *  \param area in pixels from the top-left corner */
-    void copyToWindow(const cv::Rect& area) const;
-    void copyToWindow() const { copyToWindow(cv::Rect(0, 0, size_px_.x(), size_px_.y())); }
+    /** Copies the colours to the window's back buffer, as large as that is.
+     *  \param area of the window, in pixels from its top-left corner */
+    void copyToWindow(const cv::Rect& area, const Eigen::Vector2i& window_px) const;
     /** OpenGL depths of the square around a pixel, counted from the top; 1 outside. */
     cv::Mat1f depthsAround(const Eigen::Vector2i& pixel, int radius_px) const;
 

@@ -14,6 +14,12 @@ bool hasMoved(const SE3& a, const SE3& b) {
     return (a.t - b.t).norm() > least_move_m || (a.inverse() * b).angle() > least_turn_rad;
 }
 
+std::vector<KeyframeEdge> edgesOf(const std::vector<std::pair<int, int>>& pairs) {
+    std::vector<KeyframeEdge> edges;
+    for (const auto& [from, to] : pairs) edges.push_back({from, to});
+    return edges;
+}
+
 }  // namespace
 
 bool LiveRun::update() {
@@ -72,8 +78,8 @@ void LiveRun::takeFrame(const LiveFrame& frame) {
 void LiveRun::takeMap(const LiveMap& map) {
     run_.trajectory = map.path;
     run_.keyframes = map.keyframes;
-    run_.loops.clear();
-    for (const auto& [from, to] : map.loops) run_.loops.push_back({from, to});
+    run_.loops = edgesOf(map.loops);
+    run_.covisibility = edgesOf(map.covisibility);
     for (std::size_t k = 0; k < std::min(clouds_.size(), map.keyframes.size()); ++k) {
         if (clouds_[k]) clouds_[k]->T_world_cam = map.keyframes[k].T_world_cam;
     }

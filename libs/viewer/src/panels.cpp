@@ -6,7 +6,7 @@ namespace rgbd_graphslam {
 namespace {
 
 constexpr int picture_width_px = 288, picture_height_px = 216, plot_width_px = 232,
-              plot_height_px = 84, line_px = 18;
+              plot_height_px = 76, line_px = 18;
 constexpr float largest_point_px = 10;
 
 nanogui::Widget* column(nanogui::Widget* parent, int spacing_px) {
@@ -22,7 +22,8 @@ ViewPanel::ViewPanel(nanogui::Widget* screen, ViewerSettings& settings,
     : nanogui::Window(screen, "View"), settings_(settings), changed_(std::move(changed)) {
     column(this, 1);
     addSwitch(this, "points", &ViewerSettings::points);
-    addSwitch(this, "octree", &ViewerSettings::octree);
+    addSwitch(this, "octree: occupied", &ViewerSettings::octree);
+    addSwitch(this, "octree: free", &ViewerSettings::free_space);
     addSwitch(this, "2-D grid", &ViewerSettings::grid);
     addSwitch(this, "trajectory", &ViewerSettings::trajectory);
     addSwitch(this, "true trajectory", &ViewerSettings::truth);
@@ -63,18 +64,45 @@ void ViewPanel::refresh() {
     point_size_->setValue(static_cast<float>(settings_.point_size_px));
 }
 
-PicturePanel::PicturePanel(nanogui::Widget* screen) : nanogui::Window(screen, "Images") {
+PicturePanel::PicturePanel(nanogui::Widget* screen, ViewerSettings& settings,
+                           std::function<void()> changed)
+    : nanogui::Window(screen, "Images") {
     column(this, 4);
     label_ = new nanogui::Label(this, " ");
     label_->setFixedSize({picture_width_px, line_px});
     color_ = new PictureWidget(this, {picture_width_px, picture_height_px});
+    color_->showMarks(settings.features);
+    auto* features = new nanogui::CheckBox(
+        this, "features", [this, &settings, changed = std::move(changed)](bool on) {
+            settings.features = on;
+            color_->showMarks(on);
+            changed();
+        });
+    features->setChecked(settings.features);
+    features_ = features;
     depth_ = new PictureWidget(this, {picture_width_px, picture_height_px});
+}
+
+void PicturePanel::setLive(bool live) {
+    features_->setVisible(live);
+    if (!live) color_->mark({});
 }
 
 PlotPanel::PlotPanel(nanogui::Widget* screen) : nanogui::Window(screen, "Plots") {
     column(this, 4);
-    upper_ = new PlotWidget(this, {plot_width_px, plot_height_px});
-    lower_ = new PlotWidget(this, {plot_width_px, plot_height_px});
+    landmarks_ = addPlot("tracked landmarks", "");
+    times_ = addPlot("frame time", " ms");
+    errors_ = addPlot("error", " cm");
+}
+
+PlotWidget* PlotPanel::addPlot(const char* title, const char* unit) {
+    auto* plot = new PlotWidget(this, {plot_width_px, plot_height_px});
+    plot->name(title, unit);
+    return plot;
+}
+
+void PlotPanel::setCursor(float share) {
+    for (PlotWidget* plot : {landmarks_, times_, errors_}) plot->setCursor(share);
 }
 
 TimePanel::TimePanel(nanogui::Widget* screen) : nanogui::Window(screen, "") {
@@ -122,6 +150,20 @@ HelpPanel::HelpPanel(nanogui::Widget* screen, const std::vector<Shortcut>& short
     line("click", "image of a keyframe, or a point to measure from or to");
     line("double click", "turn around the point clicked");
     for (const Shortcut& shortcut : shortcuts) line(shortcut.name, shortcut.meaning);
+}
+
+ExportPanel::ExportPanel(nanogui::Widget* screen) : nanogui::Window(screen, "Write the map") {
+    column(this, 6);
+    new nanogui::Label(this, "What is shown: of a replay the map so far,");
+    new nanogui::Label(this, "without the ceiling where it is cut off.");
+    const auto add = [this](const char* caption, ExportFormat format) {
+        auto* button = new nanogui::Button(this, caption);
+        button->setCallback([this, format] { on_export(format); });
+    };
+    add("points: PLY", ExportFormat::Ply);
+    add("points: PCD", ExportFormat::Pcd);
+    add("octree with colours: OT", ExportFormat::ColorOctree);
+    add("octree, small: BT", ExportFormat::BinaryOctree);
 }
 
 }  // namespace rgbd_graphslam

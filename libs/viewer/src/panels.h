@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "rgbd_graphslam/viewer/map_export.h"
 #include "rgbd_graphslam/viewer/viewer_settings.h"
 #include "widgets.h"
 
@@ -40,26 +41,35 @@ class ViewPanel : public nanogui::Window {
 /** Colour and depth of a keyframe or of the live frame. */
 class PicturePanel : public nanogui::Window {
   public:
-    explicit PicturePanel(nanogui::Widget* screen);
+    PicturePanel(nanogui::Widget* screen, ViewerSettings& settings, std::function<void()> changed);
 
     PictureWidget& color() { return *color_; }
     PictureWidget& depth() { return *depth_; }
     void say(const std::string& text) { label_->setCaption(text); }
+    /** Only live frames have features. */
+    void setLive(bool live);
 
   private:
     nanogui::Label* label_;
     PictureWidget *color_, *depth_;
+    nanogui::Widget* features_;
 };
 
+/** Curves over the frames of a run. */
 class PlotPanel : public nanogui::Window {
   public:
     explicit PlotPanel(nanogui::Widget* screen);
 
-    PlotWidget& upper() { return *upper_; }
-    PlotWidget& lower() { return *lower_; }
+    PlotWidget& landmarks() { return *landmarks_; }
+    PlotWidget& times() { return *times_; }
+    PlotWidget& errors() { return *errors_; }
+    /** \param share of the width; outside [0, 1] hides it */
+    void setCursor(float share);
 
   private:
-    PlotWidget *upper_, *lower_;
+    PlotWidget* addPlot(const char* title, const char* unit);
+
+    PlotWidget *landmarks_, *times_, *errors_;
 };
 
 /** The slider that replays the run, and a line of news. */
@@ -87,6 +97,14 @@ class TimePanel : public nanogui::Window {
 class HelpPanel : public nanogui::Window {
   public:
     HelpPanel(nanogui::Widget* screen, const std::vector<Shortcut>& shortcuts);
+};
+
+/** Which file to write the map to. */
+class ExportPanel : public nanogui::Window {
+  public:
+    explicit ExportPanel(nanogui::Widget* screen);
+
+    std::function<void(ExportFormat format)> on_export = [](ExportFormat) {};
 };
 
 }  // namespace rgbd_graphslam

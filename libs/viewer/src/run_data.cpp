@@ -30,15 +30,20 @@ void ifThere(const fs::path& path, const std::function<void(const std::string&)>
     }
 }
 
-std::vector<OctreeCell> occupiedCells(const octomap::ColorOcTree& tree) {
-    std::vector<OctreeCell> cells;
+constexpr std::array<std::uint8_t, 3> free_rgb = {90, 190, 120};
+
+OctreeCells cellsOf(const octomap::ColorOcTree& tree) {
+    OctreeCells cells;
     for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
-        if (!tree.isNodeOccupied(*leaf)) continue;
         const auto p = leaf.getCoordinate();
         const auto color = leaf->getColor();
-        cells.push_back({{p.x(), p.y(), p.z()},
-                         static_cast<float>(leaf.getSize()),
-                         {color.r, color.g, color.b}});
+        const OctreeCell cell{
+            {p.x(), p.y(), p.z()}, static_cast<float>(leaf.getSize()), {color.r, color.g, color.b}};
+        if (tree.isNodeOccupied(*leaf)) {
+            cells.occupied.push_back(cell);
+        } else {
+            cells.free.push_back({cell.center, cell.size_m, free_rgb});
+        }
     }
     return cells;
 }
@@ -80,6 +85,12 @@ std::vector<FrameNote> readFrames(const std::string& path) {
         frames.push_back({std::stod(row.at(0)), row.at(1) == "lost", std::stoi(row.at(2))});
     }
     return frames;
+}
+
+std::vector<float> readFrameTimes(const std::string& path) {
+    std::vector<float> times_ms;
+    for (const auto& row : csvRows(path)) times_ms.push_back(std::stof(row.at(1)));
+    return times_ms;
 }
 
 std::vector<KeyframeEdge> readCovisibility(const std::string& path, int keyframes) {
@@ -126,12 +137,14 @@ void readPoses(const fs::path& folder, RunData& run) {
     sortByLater(run.loops);
     sortByLater(run.covisibility);
     ifThere(folder / "frames.csv", [&](const std::string& path) { run.frames = readFrames(path); });
+    ifThere(folder / "frame_times.csv",
+            [&](const std::string& path) { run.frame_times_ms = readFrameTimes(path); });
 }
 
 void readMaps(const fs::path& folder, RunData& run) {
     ifThere(folder / "points.ply", [&](const std::string& path) { run.points = loadPly(path); });
     ifThere(folder / "octree.ot",
-            [&](const std::string& path) { run.octree = occupiedCells(*loadColorOcTree(path)); });
+            [&](const std::string& path) { run.octree = cellsOf(*loadColorOcTree(path)); });
     ifThere(folder / "grid.gridmap.gz",
             [&](const std::string& path) { run.grid = readGrid(path); });
 }

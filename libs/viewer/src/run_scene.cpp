@@ -1,6 +1,7 @@
 #include "run_scene.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "rgbd_graphslam/viewer/keyframe_view.h"
 #include "rgbd_graphslam/viewer/scene_parts.h"
@@ -47,7 +48,8 @@ void RunScene::show(RunData run) {
     renderer_.setLines(Part::TruePath, {});
     renderer_.setLines(Part::Errors, {});
     renderer_.setTriangles(Part::Grid, run_.grid ? gridTriangles(*run_.grid) : Vertices{});
-    renderer_.setOctree(outerFaces(run_.octree));
+    renderer_.setOctree({});
+    renderer_.setFreeSpace({});
     renderer_.setPoints(chunked(pointVertices(run_.points)));
     run_.points = {};  // the renderer has them
 }
@@ -137,6 +139,13 @@ void RunScene::markPoints(const std::vector<Eigen::Vector3d>& points, double cro
     renderer_.setLines(Part::Measure, pairLines(lines, measure_color));
 }
 
+void RunScene::prepare(const ViewerSettings& settings) {
+    if (settings.octree && !run_.octree.occupied.empty())
+        renderer_.setOctree(outerFaces(std::exchange(run_.octree.occupied, {})));
+    if (settings.free_space && !run_.octree.free.empty())
+        renderer_.setFreeSpace(outerFaces(std::exchange(run_.octree.free, {})));
+}
+
 SceneView RunScene::viewAt(std::optional<double> stamp_s, const ViewerSettings& settings) const {
     const ReplayState now = replayAt(run_, stamp_s.value_or(1e300));
     SceneView view;
@@ -146,6 +155,7 @@ SceneView RunScene::viewAt(std::optional<double> stamp_s, const ViewerSettings& 
     put(Part::Floor, settings.floor, whole);
     put(Part::Grid, settings.grid, whole);
     put(Part::Octree, settings.octree, whole);
+    put(Part::FreeSpace, settings.free_space, whole);
     put(Part::Path, settings.trajectory, 2 * std::max<std::size_t>(now.poses, 1) - 2);
     put(Part::Keyframes, settings.keyframes, vertices_a_frustum * now.keyframes);
     put(Part::Covisibility, settings.covisibility, 2 * now.covisibility);

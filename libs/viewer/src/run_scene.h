@@ -29,6 +29,8 @@ class RunScene {
     /** One point as a cross, two with a line between them. */
     void markPoints(const std::vector<Eigen::Vector3d>& points, double cross_m);
 
+    /** Makes what is switched on for the first time and takes long to make. */
+    void prepare(const ViewerSettings& settings);
     /** What is drawn at a moment. \param stamp_s nothing stands for the whole run */
     SceneView viewAt(std::optional<double> stamp_s, const ViewerSettings& settings) const;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <unordered_set>
 
 namespace rgbd_graphslam {
@@ -36,28 +37,63 @@ void addFrustum(Vertices& lines, const SE3& T, const Camera& camera, double dept
     }
 }
 
-/** Cells of one size by their place among cells of that size. */
+/** Cells by size and place; those of an octree lie in one another's grid. */
 class CellIndex {
   public:
     explicit CellIndex(const std::vector<OctreeCell>& cells) {
-        for (const OctreeCell& cell : cells) keys_.insert(keyOf(cell, Eigen::Vector3i::Zero()));
+        for (const OctreeCell& cell : cells) {
+            const int level = levelOf(cell);
+            keys_.insert(keyOf(level, placeOf(cell)));
+            finest_ = std::min(finest_, level);
+            coarsest_ = std::max(coarsest_, level);
+        }
     }
-    bool hasNeighbour(const OctreeCell& cell, const Eigen::Vector3i& step) const {
-        return keys_.count(keyOf(cell, step)) > 0;
+    /** Whether other cells touch all of a side. \param side -1 or 1 along the axis */
+    bool covers(const OctreeCell& cell, int axis, int side) const {
+        const int level = levelOf(cell);
+        const Place beside = placeOf(cell) + side * Place::Unit(axis);
+        return insideOne(level, beside) || filled(level, beside, axis, side);
     }
 
   private:
+    using Place = Eigen::Vector3i;
+
+    static int levelOf(const OctreeCell& cell) { return std::ilogb(cell.size_m); }
+    static Place placeOf(const OctreeCell& cell) {
+        return (cell.center / cell.size_m).array().floor().cast<int>();
+    }
     /** Twenty bits an axis, four for the size. */
-    static std::uint64_t keyOf(const OctreeCell& cell, const Eigen::Vector3i& step) {
-        std::uint64_t key = static_cast<std::uint64_t>(std::ilogb(cell.size_m)) & 15;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto place =
-                static_cast<std::int64_t>(std::floor(cell.center[axis] / cell.size_m)) + step[axis];
-            key = key << 20 | (static_cast<std::uint64_t>(place) & 0xFFFFF);
-        }
+    static std::uint64_t keyOf(int level, const Place& place) {
+        std::uint64_t key = static_cast<std::uint64_t>(level) & 15;
+        for (const int p : place) key = key << 20 | (static_cast<std::uint64_t>(p) & 0xFFFFF);
         return key;
     }
+    bool has(int level, const Place& place) const { return keys_.count(keyOf(level, place)) > 0; }
+
+    /** A cell of this size or a larger one. */
+    bool insideOne(int level, Place place) const {
+        for (; level <= coarsest_; ++level) {
+            if (has(level, place)) return true;
+            for (int& p : place) p >>= 1;
+        }
+        return false;
+    }
+    /** The side that is turned to the asker, by cells of this size or smaller ones. */
+    bool filled(int level, const Place& place, int axis, int side) const {
+        if (has(level, place)) return true;
+        if (level <= finest_) return false;
+        for (int quarter = 0; quarter < 4; ++quarter) {
+            Place child = 2 * place;
+            child[axis] += side < 0 ? 1 : 0;
+            child[(axis + 1) % 3] += quarter & 1;
+            child[(axis + 2) % 3] += quarter >> 1;
+            if (!filled(level - 1, child, axis, side)) return false;
+        }
+        return true;
+    }
+
     std::unordered_set<std::uint64_t> keys_;
+    int finest_ = std::numeric_limits<int>::max(), coarsest_ = std::numeric_limits<int>::min();
 };
 
 void addFace(Vertices& triangles, const OctreeCell& cell, int axis, int side) {
@@ -148,8 +184,7 @@ std::array<Vertices, 6> outerFaces(const std::vector<OctreeCell>& cells) {
     for (const OctreeCell& cell : cells) {
         for (int direction = 0; direction < 6; ++direction) {
             const int axis = direction / 2, side = direction % 2 == 0 ? -1 : 1;
-            const Eigen::Vector3i step = side * Eigen::Vector3i::Unit(axis);
-            if (!index.hasNeighbour(cell, step)) addFace(faces[direction], cell, axis, side);
+            if (!index.covers(cell, axis, side)) addFace(faces[direction], cell, axis, side);
         }
     }
     return faces;

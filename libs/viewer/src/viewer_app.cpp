@@ -3,11 +3,13 @@
 #include <sys/resource.h>
 
 #include <cstdlib>
+#include <ctime>
 #include <filesystem>
 #include <fstream>
 
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/formatted.h"
 #include "viewer_window.h"
 
 namespace rgbd_graphslam {
@@ -53,9 +55,11 @@ void stepBack() {
 
 void reportSpeed(ViewerWindow& window, double seconds) {
     window.spin(0.3 * seconds);  // until the number of points has adapted
+    const std::clock_t cpu_before = std::clock();
     const double rate = window.spin(seconds);
-    sayInfo(std::to_string(window.points()) + " points, " + std::to_string(window.pointsDrawn()) +
-            " in a moving picture, " + std::to_string(rate) + " pictures/s");
+    const double cpu_s = static_cast<double>(std::clock() - cpu_before) / CLOCKS_PER_SEC;
+    sayInfo(formatted("%zu points, %zu in a moving picture, %.1f pictures/s, %.1f ms CPU a picture",
+                      window.points(), window.pointsDrawn(), rate, 1e3 * cpu_s / (rate * seconds)));
 }
 
 void runUntilClosed(ViewerWindow& window, const ViewerJob& job) {

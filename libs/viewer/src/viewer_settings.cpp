@@ -19,6 +19,7 @@ void ViewerSettings::describe(OptionVisitor& v) {
     v.integer("window_height", window_height, 240, farthest, "px", "Height of the window");
     v.flag("points", points, "Coloured points");
     v.flag("octree", octree, "Occupied cells of the octree");
+    v.flag("free_space", free_space, "Free cells of the octree");
     v.flag("grid", grid, "2-D grid");
     v.flag("floor", floor, "Lines every metre on the floor");
     v.flag("trajectory", trajectory, "Estimated trajectory");
@@ -28,6 +29,7 @@ void ViewerSettings::describe(OptionVisitor& v) {
     v.flag("covisibility", covisibility, "Edges between keyframes that see the same");
     v.flag("loops", loops, "Loop edges");
     v.flag("before_loops", before_loops, "Keyframes as they were without loops");
+    v.flag("features", features, "Features in the image of a running SLAM");
     v.flag("view_panel", view_panel, "Panel of switches");
     v.flag("image_panel", image_panel, "Panel of images");
     v.flag("plot_panel", plot_panel, "Panel of plots");

@@ -9,16 +9,21 @@
 #include <string>
 #include <vector>
 
-#include "panels.h"
+#include "panel_set.h"
 #include "rgbd_graphslam/viewer/live_run.h"
+#include "rgbd_graphslam/viewer/measuring.h"
+#include "rgbd_graphslam/viewer/mouse_gesture.h"
 #include "rgbd_graphslam/viewer/orbit_camera.h"
 #include "rgbd_graphslam/viewer/recording_loader.h"
+#include "rgbd_graphslam/viewer/replay_clock.h"
 #include "rgbd_graphslam/viewer/run_data.h"
 #include "run_scene.h"
 #include "scene_renderer.h"
 
 namespace rgbd_graphslam {
 
+/** Drawing is in viewer_window.cpp, keys and mouse in viewer_input.cpp, what they set off in
+ *  viewer_actions.cpp, and following a run in viewer_live.cpp. */
 class ViewerWindow : public nanogui::Screen {
   public:
     ViewerWindow(const ViewerSettings& settings, const std::string& title);
@@ -56,48 +61,56 @@ class ViewerWindow : public nanogui::Screen {
   private:
     using Clock = std::chrono::steady_clock;
 
-    void makeShortcuts();
-    void makePanels();
-    void placePanels();
-    void togglePanels();
-    void toggleHelp();
-
     void drawAll() override;
     void compose();
     void drawPanels();
     void styleTheme();
     SceneView sceneView();
     void takeRecording();
-    void takeLive();
-    void showLive();
-    void restAfterDrawing(Clock::time_point start);
-    void showLivePictures(const LiveFrame& frame);
-    void showLivePlots();
-    void endLive();
-    void advanceReplay();
-    void moveTo(std::optional<double> stamp_s);
-    void stepKeyframe(int step);
+    void sceneChanged() { scene_changed_ = true; }
+    void panelsChanged() { panels_changed_ = true; }
+
+    std::vector<Shortcut> viewShortcuts();
+    std::vector<Shortcut> toolShortcuts();
+    void connectPanels();
+
+    void placePanels();
     void showPictures();
-    void showPlots();
     void showTime();
     void say(const std::string& text);
-
-    Eigen::Vector2d freeShare() const;
+    void advanceReplay();
+    void moveTo(std::optional<double> stamp_s);
+    void play(bool play);
+    void stepKeyframe(int step);
+    /** How many keyframes are shown. */
+    std::size_t keyframesByNow() const;
     void fit();
+    void lookDown();
+    void toggleFollowing();
+    void toggleColors();
+    void flip(bool ViewerSettings::*field);
     void click(const Eigen::Vector2d& pixel);
     void lookAt(const Eigen::Vector2d& pixel);
+    void toggleMeasuring();
     void measureAt(const Eigen::Vector2d& pixel);
     void select(std::optional<std::size_t> keyframe);
-    void takeScreenshot();
     std::optional<Eigen::Vector3d> surfaceUnder(const Eigen::Vector2d& pixel) const;
-    void flip(bool ViewerSettings::*field);
-    void sceneChanged() { scene_changed_ = true; }
+    void takeScreenshot();
+    void exportMap(ExportFormat format);
+    /** Where files are put that the user asks for. */
+    std::string outputFolder() const { return live_ ? live_folder_ : scene_->run().folder; }
+
+    void takeLive();
+    void showLive();
+    void endLive();
+    void restAfterDrawing(Clock::time_point start);
 
     ViewerSettings settings_;
     std::vector<Shortcut> shortcuts_;
+    std::unique_ptr<PanelSet> panels_;
     std::unique_ptr<SceneRenderer> renderer_;
     std::unique_ptr<RunScene> scene_;
-    std::unique_ptr<RenderTarget> panels_;
+    std::unique_ptr<RenderTarget> panel_layer_;
     std::unique_ptr<RecordingLoader> loader_;
     bool all_read_ = true;
     std::unique_ptr<LiveRun> live_;  // while a run is followed
@@ -106,25 +119,15 @@ class ViewerWindow : public nanogui::Screen {
     Clock::time_point next_live_picture_;
 
     OrbitCamera camera_;
-    bool follow_camera_ = false, measuring_ = false;
-    std::vector<Eigen::Vector3d> measured_;
+    MouseGesture mouse_;
+    Measuring measuring_;
+    ReplayClock replay_;
+    bool follow_camera_ = false;
     std::optional<std::size_t> selected_;
-    std::optional<double> now_s_;  // nothing: the whole run
-    bool playing_ = false;
-    Clock::time_point last_advance_;
 
-    bool scene_changed_ = true;
+    bool scene_changed_ = true, panels_changed_ = true, picture_changed_ = true;
     double last_drawn_interaction_ = -1;
-    bool panels_changed_ = true, picture_changed_ = true;
-    int drag_button_ = -1;
-    Eigen::Vector2i drag_start_ = Eigen::Vector2i::Zero();
-    Clock::time_point last_click_;
-
-    ViewPanel* view_panel_ = nullptr;
-    PicturePanel* picture_panel_ = nullptr;
-    PlotPanel* plot_panel_ = nullptr;
-    TimePanel* time_panel_ = nullptr;
-    HelpPanel* help_panel_ = nullptr;
+    double compose_s_ = 0;  // what a picture takes beside its scene
 };
 
 }  // namespace rgbd_graphslam

@@ -72,6 +72,7 @@ void PictureWidget::draw(NVGcontext* context) {
     }
     if (is_new_) upload(context);
     fillRectangle(context, mPos, mSize, nvgImagePattern(context, x, y, w, h, 0, handle_, 1));
+    if (!marks_shown_) return;
     for (const PictureMark& mark : marks_) {
         nvgBeginPath(context);
         nvgRect(context, x + w * mark.x - mark_radius_px, y + h * mark.y - mark_radius_px,

@@ -22,6 +22,7 @@ class PictureWidget : public nanogui::Widget {
     /** \param image BGR; empty shows the text instead */
     void show(const cv::Mat3b& image, const std::string& text_without);
     void mark(std::vector<PictureMark> marks) { marks_ = std::move(marks); }
+    void showMarks(bool show) { marks_shown_ = show; }
 
     nanogui::Vector2i preferredSize(NVGcontext*) const override { return wanted_px_; }
     void draw(NVGcontext* context) override;
@@ -32,7 +33,7 @@ class PictureWidget : public nanogui::Widget {
     nanogui::Vector2i wanted_px_;
     cv::Mat rgba_;
     std::string text_;
-    bool is_new_ = false;
+    bool is_new_ = false, marks_shown_ = true;
     int handle_ = 0;
     cv::Size uploaded_size_;
     std::vector<PictureMark> marks_;

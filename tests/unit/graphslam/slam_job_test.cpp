@@ -97,6 +97,7 @@ TEST_F(JobOnARawlog, writesAFolderThatDescribesItself) {
     EXPECT_EQ(linesOf(output("trajectory.txt")), 1u + frames);
     EXPECT_EQ(linesOf(output("keyframes.txt")), 1 + report.keyframes);
     EXPECT_EQ(linesOf(output("frames.csv")), 1u + frames);
+    EXPECT_EQ(linesOf(output("frame_times.csv")), 1u + frames);
     const auto summary = nlohmann::json::parse(output("summary.json"));
     EXPECT_EQ(summary["tracked"], frames);
     EXPECT_EQ(summary["rawlog"], job_.rawlog);

@@ -40,6 +40,7 @@ LiveMap someMap() {
     map.path = {{1, pose}, {2, pose * pose}, {3, pose}};
     map.keyframes = {{1, pose}, {3, pose}};
     map.loops = {{1, 0}};
+    map.covisibility = {{0, 1}};
     return map;
 }
 
@@ -86,6 +87,7 @@ TEST(LiveMessages, mapsArriveAsTheyWereSent) {
     EXPECT_EQ(map.path[1].T_world_cam.t, (pose * pose).t);
     EXPECT_EQ(map.keyframes[1].stamp_s, 3);
     EXPECT_EQ(map.loops, someMap().loops);
+    EXPECT_EQ(map.covisibility, someMap().covisibility);
 }
 
 TEST(LiveMessages, whatIsCutOffIsRefusedWhereverTheCutIs) {

@@ -31,6 +31,7 @@ LiveMap mapWith(double x0, double x1) {
     map.path = {{1, at(x0)}, {2, at(x1)}};
     map.keyframes = map.path;
     map.loops = {{1, 0}};
+    map.covisibility = {{0, 1}};
     return map;
 }
 
@@ -82,6 +83,8 @@ TEST(LiveRun, cloudsFollowTheirKeyframes) {
     EXPECT_EQ(moved[0].first, 1U);
     EXPECT_NEAR(moved[0].second[0].position.x() - first[1].second[0].position.x(), 0.5, 1e-5);
     EXPECT_EQ(live.run().loops.size(), 1U);
+    ASSERT_EQ(live.run().covisibility.size(), 1U);
+    EXPECT_EQ(live.run().covisibility[0].to, 1);
     EXPECT_EQ(live.run().keyframes.size(), 2U);
 }
 

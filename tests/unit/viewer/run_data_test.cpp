@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <octomap/ColorOcTree.h>
 
 #include <filesystem>
 #include <fstream>
@@ -22,6 +23,7 @@ class RunFolder : public testing::Test {
         write("summary.json",
               R"({"rawlog": "gone.rawlog", "loop_edges": [[2, 0, 40], [9, 0, 1]]})");
         write("frames.csv", "stamp_s,origin,inliers,keyframe\n1.0,tracked,80,0\n2.0,lost,0,\n");
+        write("frame_times.csv", "stamp_s,wall_ms\n1.0,6.5\n2.0,30\n");
         write("covisibility.csv", "from,to,landmarks\n0,2,30\n0,1,20\n");
     }
     ~RunFolder() override { fs::remove_all(folder_); }
@@ -60,6 +62,7 @@ TEST_F(RunFolder, isReadWithoutItsRecordingAndMaps) {
     ASSERT_EQ(run.frames.size(), 2U);
     EXPECT_EQ(run.frames[0].inliers, 80);
     EXPECT_TRUE(run.frames[1].lost);
+    EXPECT_EQ(run.frame_times_ms, (std::vector<float>{6.5f, 30}));
 }
 
 TEST_F(RunFolder, damagedMapsAreNamedAndTheRestIsShown) {
@@ -75,6 +78,20 @@ TEST_F(RunFolder, damagedMapsAreNamedAndTheRestIsShown) {
     EXPECT_EQ(run.points.size(), 1U);
     EXPECT_TRUE(run.covisibility.empty());
     EXPECT_FALSE(run.grid);
+}
+
+TEST_F(RunFolder, cellsAreOccupiedOrFree) {
+    octomap::ColorOcTree tree(0.1);
+    for (int i = 0; i < 3; ++i) tree.updateNode(octomap::point3d(1, 2, 0.55f), true);
+    tree.updateNode(octomap::point3d(1, 2, 0.25f), false);
+    tree.updateInnerOccupancy();
+    saveColorOcTree(path("octree.ot"), tree);
+    RunData run;
+    load(run);
+    ASSERT_EQ(run.octree.occupied.size(), 1U);
+    ASSERT_EQ(run.octree.free.size(), 1U);
+    EXPECT_NEAR(run.octree.occupied[0].center.z(), 0.55, 1e-5);
+    EXPECT_NEAR(run.octree.free[0].center.z(), 0.25, 1e-5);
 }
 
 TEST_F(RunFolder, whatIsNoRunIsRefused) {

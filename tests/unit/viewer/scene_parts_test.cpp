@@ -75,10 +75,25 @@ TEST(OuterFaces, sidesBetweenNeighboursAreLeftOut) {
     EXPECT_EQ(verticesOf(faces), 6U * (2 + 4 * row.size()));
 }
 
-TEST(OuterFaces, cellsOfOtherSizesDoNotHideOneAnother) {
+TEST(OuterFaces, aLargeCellHidesTheSmallOnesBesideIt) {
     const auto faces =
-        outerFaces({{{0.05f, 0.05f, 0.05f}, 0.1f, {}}, {{0.2f, 0.1f, 0.1f}, 0.2f, {}}});
-    EXPECT_EQ(verticesOf(faces), 72U);
+        outerFaces({{{0.15f, 0.05f, 0.05f}, 0.1f, {}}, {{0.3f, 0.1f, 0.1f}, 0.2f, {}}});
+    EXPECT_EQ(faces[0].size(), 12U);  // -x of both: the large one's is not covered whole
+    EXPECT_EQ(faces[1].size(), 6U);   // +x of the large one only
+    EXPECT_EQ(verticesOf(faces), 66U);
+}
+
+TEST(OuterFaces, fourSmallCellsHideALargeOnesSide) {
+    std::vector<OctreeCell> cells = {{{0.1f, 0.1f, 0.1f}, 0.2f, {}}};
+    for (int i = 0; i < 4; ++i) {
+        cells.push_back({{-0.05f, 0.05f + 0.1f * static_cast<float>(i % 2),
+                          0.05f + 0.1f * static_cast<float>(i / 2)},
+                         0.1f,
+                         {}});
+    }
+    const auto faces = outerFaces(cells);
+    EXPECT_EQ(faces[0].size(), 4U * 6);  // of the small ones
+    EXPECT_EQ(faces[1].size(), 6U);      // of the large one
 }
 
 TEST(GridTriangles, equalNeighboursShareARectangleAndUnseenCellsAreOpen) {

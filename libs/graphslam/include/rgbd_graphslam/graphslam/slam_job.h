@@ -22,6 +22,11 @@ struct SlamJob {
     bool localises() const { return !map_folder.empty() && map_use == MapUse::Localise; }
 };
 
+/** How long a frame took from its features to its pose and all that it set off. */
+struct FrameTime {
+    double stamp_s = 0, wall_ms = 0;
+};
+
 /** What came of a job. */
 struct JobReport {
     std::size_t frames = 0, tracked = 0, recovered = 0, weak = 0, lost = 0;
@@ -47,6 +52,7 @@ struct JobReport {
     double maps_wall_s = 0;
     double peak_memory_mb = 0;
     std::vector<VisualSlam::StageTime> stages;
+    std::vector<FrameTime> frame_times;
 
     /** Said on the way. */
     std::vector<std::string> warnings;
@@ -61,10 +67,10 @@ struct JobReport {
 };
 
 /** Runs SLAM over the whole rawlog and writes the folder: trajectory.txt, frames.csv,
- *  keyframes.txt, covisibility.csv, graph.graph, config.ini, the maps unless switched off,
- *  summary.json, and report.html made of them. All
- *  poses are of the camera's optical frame (in the graph: of the robot) in a world with z up and
- *  the floor at 0. The trajectory is byte-identical for any number of threads.
+ *  frame_times.csv, keyframes.txt, covisibility.csv, graph.graph, config.ini, the maps unless
+ * switched off, summary.json, and report.html made of them. All poses are of the camera's optical
+ * frame (in the graph: of the robot) in a world with z up and the floor at 0. The trajectory is
+ * byte-identical for any number of threads.
  *
  *  From an earlier run's map: all poses are in that run's world. Localising writes the trajectory
  *  only; extending writes everything, of both runs, but trajectory.txt and frames.csv have the

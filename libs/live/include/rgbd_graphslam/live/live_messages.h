@@ -50,7 +50,7 @@ struct LiveFrame {
 /** Everything that a closed loop may have moved. */
 struct LiveMap {
     Trajectory path, keyframes;
-    std::vector<std::pair<int, int>> loops;  // keyframes
+    std::vector<std::pair<int, int>> loops, covisibility;  // keyframes
 };
 
 using LiveMessage = std::variant<LiveFrame, LiveMap>;

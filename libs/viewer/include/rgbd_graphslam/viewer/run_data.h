@@ -23,11 +23,16 @@ struct FrameNote {
     int inliers = 0;
 };
 
-/** An occupied leaf of the octree. */
+/** A leaf of the octree. */
 struct OctreeCell {
     Eigen::Vector3f center;  // m
     float size_m = 0;
     std::array<std::uint8_t, 3> rgb{};
+};
+
+/** Leaves of an octree; what is in neither list is unseen. */
+struct OctreeCells {
+    std::vector<OctreeCell> occupied, free;
 };
 
 /** Cells of the 2-D grid: probability of being free, row by row from the lowest y. */
@@ -45,8 +50,9 @@ struct RunData {
     /** Each list by the later of the two keyframes, so that a replay shows a prefix. */
     std::vector<KeyframeEdge> loops, covisibility;
     std::vector<FrameNote> frames;
+    std::vector<float> frame_times_ms;  // wall time of tracking each of them
     PointMap points;
-    std::vector<OctreeCell> octree;
+    OctreeCells octree;
     std::optional<GridMap> grid;
 };
 

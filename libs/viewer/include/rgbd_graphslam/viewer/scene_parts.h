@@ -30,8 +30,8 @@ Vertices pairLines(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>
 /** Lines every metre on the floor below the box. */
 Vertices floorLines(const Eigen::AlignedBox3d& box, const Rgba& color);
 
-/** The sides of cells that no cell of the same size covers, as triangles; one list a direction:
- *  -x, +x, -y, +y, -z, +z. */
+/** The sides of an octree's cells that other cells do not cover whole, as triangles; one list a
+ *  direction: -x, +x, -y, +y, -z, +z. */
 std::array<Vertices, 6> outerFaces(const std::vector<OctreeCell>& cells);
 
 /** Obstacles and free cells as triangles a little above the floor; unseen cells are left open. */
