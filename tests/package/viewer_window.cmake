@@ -35,6 +35,7 @@ if(NOT code EQUAL 0)
 endif()
 expect_picture(${SCRATCH}/window.png)
 
+# The time is for machines with much else to do: such a viewer has the lowest priority.
 # A run that is followed: the result is shown when it ends, and it is the same as without a viewer;
 # so it is when the viewer is killed.
 file(WRITE ${SCRATCH}/follow.sh "
@@ -43,12 +44,12 @@ file(WRITE ${SCRATCH}/follow.sh "
 wait $viewer || exit 2
 '${APP}' --follow out-killed & viewer=$!
 (while ! [ -S out-killed/live.socket ]; do sleep 0.02; done; sleep 0.1; kill -9 $viewer) & killer=$!
-'${SLAM}' -q --max-frames 40 '${INI}' '${RAWLOG}' -o out-killed || exit 3
+'${SLAM}' -q --no-maps --max-frames 40 '${INI}' '${RAWLOG}' -o out-killed || exit 3
 wait $killer || exit 4
 cmp out/trajectory.txt out-followed/trajectory.txt && cmp out/trajectory.txt out-killed/trajectory.txt")
 execute_process(COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24" sh ${SCRATCH}/follow.sh
     WORKING_DIRECTORY ${SCRATCH}
-    RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE text TIMEOUT 200)
+    RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE text TIMEOUT 800)
 if(NOT code EQUAL 0)
     message(FATAL_ERROR "following a run ended with ${code} and said:\n${text}")
 endif()
