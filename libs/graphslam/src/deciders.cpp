@@ -45,7 +45,7 @@ bool COrbKeyframeNRD::updateState(mrpt::obs::CActionCollection::Ptr,
     track(shared, frame);
     if (shared.new_keyframe.value_or(0) == 0) return false;
     return registerNewNodeAtEnd(
-        robotEdge(shared.slam->odometryEdge(*shared.new_keyframe), shared.T_base_cam));
+        registered(shared.slam->odometryEdge(*shared.new_keyframe), shared));
 }
 
 COrbKeyframeNRD::global_pose_t COrbKeyframeNRD::getCurrentRobotPosEstimation() const {
@@ -68,7 +68,7 @@ bool COrbLoopClosureERD::updateState(mrpt::obs::CActionCollection::Ptr,
     shared.loops_found = false;
     if (shared.new_keyframe) {
         for (const PoseEdge& loop : shared.slam->findLoops(*shared.new_keyframe)) {
-            registerNewEdge(loop.from, loop.to, robotEdge(loop, shared.T_base_cam));
+            registerNewEdge(loop.from, loop.to, registered(loop, shared));
         }
     }
     m_just_inserted_lc = shared.loops_found;
@@ -80,7 +80,6 @@ void COrbLoopClosureERD::registerNewEdge(const mrpt::graphs::TNodeID& from,
                                          const constraint_t& edge) {
     m_graph->insertEdge(from, to, edge);
     m_graph->shared->loops_found = true;
-    ++m_graph->shared->loop_edges;
 }
 
 void COrbLoopClosureERD::getEdgesStats(std::map<std::string, int>* edge_type_to_num) const {

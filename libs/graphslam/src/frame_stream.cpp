@@ -49,6 +49,8 @@ class FrameStream::Implementation {
 
     ~Implementation() { stop(); }
 
+    std::optional<StreamedFrame> skip() { return takeFrame(); }
+
     void start(Prepare prepare) {
         prepare_ = std::move(prepare);
         busy_workers_ = options_.threads - 1;
@@ -192,6 +194,10 @@ FrameStream::~FrameStream() = default;
 
 const CObservation3DRangeScan& FrameStream::firstFrame() const {
     return impl_->firstFrame();
+}
+
+std::optional<StreamedFrame> FrameStream::skip() {
+    return impl_->skip();
 }
 
 void FrameStream::start(Prepare prepare) {

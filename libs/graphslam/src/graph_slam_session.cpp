@@ -85,9 +85,12 @@ class GraphSlamSession::Implementation {
         } else {
             startSlam(shared(), first_frame);
         }
-        if (graph().nodes.empty()) return;
-        nodes_.continueAfter(graph().nodeCount() - 1);
-        engine_->continueAfterNodes();
+        continueAfterNodes();
+    }
+
+    void load(ByteReader& in) {
+        rgbd_graphslam::load(in, graph());
+        continueAfterNodes();
     }
 
     SharedSlam& shared() { return *engine_->graph().shared; }
@@ -113,6 +116,12 @@ class GraphSlamSession::Implementation {
     }
 
   private:
+    void continueAfterNodes() {
+        if (graph().nodes.empty()) return;
+        nodes_.continueAfter(graph().nodeCount() - 1);
+        engine_->continueAfterNodes();
+    }
+
     COrbKeyframeNRD nodes_;
     COrbLoopClosureERD edges_;
     CCeresGSO optimizer_;
@@ -150,6 +159,14 @@ TrackedFrame GraphSlamSession::step(const CObservation3DRangeScan::Ptr& observat
 void GraphSlamSession::finish() {
     impl_->shared().slam->finish();
     updateNodes(impl_->graph());
+}
+
+void GraphSlamSession::save(ByteWriter& out) const {
+    rgbd_graphslam::save(impl_->graph(), out);
+}
+
+void GraphSlamSession::load(ByteReader& in) {
+    impl_->load(in);
 }
 
 const VisualSlam& GraphSlamSession::slam() const {

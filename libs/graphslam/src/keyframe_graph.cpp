@@ -2,6 +2,7 @@
 
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/slam/map_encoding.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -28,6 +29,10 @@ Matrix6d tangentOfParameters(const SE3& T_from_to, const SE3& T_base_cam,
     return derivative;
 }
 
+void insert(const PoseEdge& edge, KeyframeGraph& graph) {
+    graph.insertEdge(edge.from, edge.to, registered(edge, *graph.shared));
+}
+
 }  // namespace
 
 void startSlam(SharedSlam& shared, const mrpt::obs::CObservation3DRangeScan& frame) {
@@ -44,15 +49,9 @@ void startSlam(KeyframeGraph& graph, const mrpt::obs::CObservation3DRangeScan& f
     if (start.use == MapUse::Localise) return;
     for (const KeyframeView& keyframe : shared.slam->keyframes()) {
         graph.nodes[keyframe.id] = {};
-        if (keyframe.id == 0) continue;
-        graph.insertEdge(keyframe.id - 1, keyframe.id,
-                         robotEdge(shared.slam->odometryEdge(keyframe.id), shared.T_base_cam));
+        if (keyframe.id > 0) insert(shared.slam->odometryEdge(keyframe.id), graph);
     }
-    for (const PoseEdge& edge : shared.slam->poseGraph().edges) {
-        if (edge.kind != EdgeKind::Loop) continue;
-        graph.insertEdge(edge.from, edge.to, robotEdge(edge, shared.T_base_cam));
-        ++shared.loop_edges;
-    }
+    for (const PoseEdge& loop : shared.slam->loops()) insert(loop, graph);
     updateNodes(graph);
 }
 
@@ -69,6 +68,37 @@ KeyframeGraph::constraint_t robotEdge(const PoseEdge& edge, const SE3& T_base_ca
         for (int j = 0; j < 6; ++j) result.cov_inv(i, j) = information(i, j);
     }
     return result;
+}
+
+KeyframeGraph::constraint_t registered(const PoseEdge& edge, SharedSlam& shared) {
+    shared.edges.push_back(edge);
+    shared.loop_edges += edge.kind == EdgeKind::Loop;
+    return robotEdge(edge, shared.T_base_cam);
+}
+
+void save(const KeyframeGraph& graph, ByteWriter& out) {
+    const SharedSlam& shared = *graph.shared;
+    shared.slam->save(out);
+    out.putCount(graph.nodes.size());
+    out.putCount(shared.edges.size());
+    for (const PoseEdge& edge : shared.edges) {
+        putFlag(edge.kind == EdgeKind::Loop, out);
+        put(edge, out);
+    }
+}
+
+void load(ByteReader& in, KeyframeGraph& graph) {
+    SharedSlam& shared = *graph.shared;
+    shared.slam->load(in);
+    const int keyframes = static_cast<int>(shared.slam->keyframes().size());
+    const int nodes = getIndex(in, keyframes + 1, "node");
+    for (int id = 0; id < nodes; ++id) graph.nodes[id] = {};
+    const std::size_t edges = in.getCount(edge_bytes);
+    for (std::size_t e = 0; e < edges; ++e) {
+        const EdgeKind kind = getFlag(in) ? EdgeKind::Loop : EdgeKind::Odometry;
+        insert(getEdge(in, nodes, kind), graph);
+    }
+    updateNodes(graph);
 }
 
 void updateNodes(KeyframeGraph& graph) {

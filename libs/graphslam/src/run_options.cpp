@@ -12,6 +12,9 @@ void RunOptions::describe(OptionVisitor& v) {
               "Stop tracking with as many and write the map; 0 = never");
     v.integer("max_memory_mb", max_memory_mb, 0, 1000000000, "MB",
               "Stop tracking at as much and write the map, which takes some more; 0 = never");
+    v.integer(
+        "checkpoint_keyframes", checkpoint_keyframes, 0, 1000000000, "keyframes",
+        "Write a checkpoint for --resume after as many new ones, or a tenth of all; 0 = never");
     v.flag("dense_maps", dense_maps, "Build points, octree and grid after tracking");
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <opencv2/imgcodecs.hpp>
 
+#include "checkpoint.h"
 #include "interruption.h"
 #include "live_feed.h"
 #include "output_texts.h"
@@ -14,6 +15,7 @@
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/progress.h"
+#include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/graphslam/frame_stream.h"
 #include "rgbd_graphslam/graphslam/graph_slam_session.h"
@@ -23,6 +25,7 @@
 #include "rgbd_graphslam/mapping/map_builder.h"
 #include "rgbd_graphslam/report/keyframe_sheet.h"
 #include "rgbd_graphslam/report/run_report.h"
+#include "rgbd_graphslam/slam/map_encoding.h"
 #include "truth_comparison.h"
 
 namespace rgbd_graphslam {
@@ -66,7 +69,7 @@ Trajectory chained(Trajectory keyframes, const std::vector<SE3>& T_previous_keyf
 constexpr const char* sparse_map_name = "map.sparse";
 
 std::optional<SparseMap> readStart(const SlamJob& job) {
-    if (job.map_folder.empty()) return std::nullopt;
+    if (job.map_folder.empty() || job.resume) return std::nullopt;
     return readSparseMap(job.map_folder + "/" + sparse_map_name);
 }
 
@@ -85,9 +88,14 @@ class Job {
           session_(makeSession(job, stream_, start_)),
           live_feed_(job.out_folder),
           level_(job.options.maps) {
-        if (!start_ || job.localises()) return;
-        for (const KeyframeView& keyframe : session_.slam().keyframes()) noteKeyframe(keyframe.id);
-        first_keyframe_ = static_cast<int>(T_previous_keyframe_.size());
+        if (job.resume) {
+            goOn();
+        } else if (start_ && !job.localises()) {
+            for (const KeyframeView& k : session_.slam().keyframes()) noteKeyframe(k.id);
+            first_keyframe_ = static_cast<int>(T_previous_keyframe_.size());
+        }
+        checkpoints_.emplace(job, T_previous_keyframe_.size());
+        if (!job.resume) checkpoints_->remove();  // of an earlier run
     }
 
     ~Job() { stream_.stop(); }  // frames read ahead are prepared by the session, which goes first
@@ -97,20 +105,35 @@ class Job {
     JobReport run() {
         if (job_.view) launchViewer(job_.out_folder);
         track();
+        const bool can_go_on = interruption_.requested() && checkpoints_->enabled();
+        if (can_go_on) writeCheckpoint();
         session_.finish();
         describe();
         write();
+        if (can_go_on) {
+            sayInfo("interrupted; --resume " + job_.out_folder + " goes on from here");
+        } else {
+            checkpoints_->remove();
+        }
         return report_;
     }
 
   private:
+    void goOn();
+    void readOver(std::size_t frames);
+    void writeCheckpoint();
+    void save(ByteWriter& out) const;
+    void load(ByteReader& in);
+
     void track();
     void trackOne(const StreamedFrame& frame);
     void noteKeyframe(int keyframe);
+    void keepPictures(int keyframe, const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
     std::optional<StreamedFrame> nextFrame();
     bool finished() const;
     void checkLimits();
     std::string progressNote() const;
+    std::vector<std::string> allWarnings() const;
 
     void describe();
     void countFrames();
@@ -135,8 +158,11 @@ class Job {
     LiveFeed live_feed_;
     Interruption interruption_;
     WarningRecord warnings_;
+    std::vector<std::string> earlier_warnings_;  // before the checkpoint
+    std::optional<CheckpointWriter> checkpoints_;
     JobReport report_;
     std::optional<double> first_stamp_s_, last_stamp_s_;
+    std::size_t frames_read_ = 0;           // tracked or left out
     int first_keyframe_ = 0;                // of this rawlog
     int part_ = 0;                          // of the map that is written
     std::vector<SE3> T_previous_keyframe_;  // one a keyframe, the identity for the first
@@ -145,21 +171,109 @@ class Job {
     Trajectory truth_;  // beside the estimate, in its world
 };
 
+/** Takes up what the checkpoint knows. */
+void Job::goOn() {
+    const Checkpoint checkpoint = readCheckpoint(job_.out_folder);
+    try {
+        ByteReader in(checkpoint.state);
+        load(in);
+    } catch (const DamagedBytes& e) {
+        throw Error("the checkpoint in '" + job_.out_folder + "' makes no sense: " + e.what(),
+                    "run it from the start");
+    }
+    readOver(frames_read_);
+    sayInfo("goes on at frame " + std::to_string(frames_read_) + " with " +
+            std::to_string(T_previous_keyframe_.size()) + " keyframes");
+}
+
+/** Other sensors and the keyframes' images are looked at on the way. */
+void Job::readOver(std::size_t frames) {
+    const std::vector<TrackedFrame> tracked = session_.slam().frames();
+    auto known = tracked.begin();
+    for (std::size_t i = 0; i < frames; ++i) {
+        const auto frame = stream_.skip();
+        if (!frame) throw Error("the rawlog '" + job_.rawlog + "' ends before its checkpoint");
+        for (const auto& observation : frame->before) level_.note(*observation);
+        const bool left_out =
+            known == tracked.end() || toSeconds(frame->observation->timestamp) != known->stamp_s;
+        if (left_out) continue;
+        if (!first_stamp_s_) first_stamp_s_ = known->stamp_s;
+        last_stamp_s_ = known->stamp_s;
+        if (known->keyframe) keepPictures(*known->keyframe, frame->observation);
+        ++known;
+    }
+    report_.frames = tracked.size();
+    report_.out_of_order = frames - tracked.size();
+}
+
+void Job::writeCheckpoint() {
+    const ThreadClock clock;
+    ByteWriter out;
+    save(out);
+    sayDetail("checkpoint: " + std::to_string(out.bytes().size() / 1000) + " kB in " +
+              std::to_string(clock.cpuMs()) + " ms");
+    checkpoints_->write(T_previous_keyframe_.size(), out.take());
+}
+
+void Job::save(ByteWriter& out) const {
+    out.putCount(frames_read_);
+    out.putCount(first_keyframe_);
+    out.putCount(T_previous_keyframe_.size());
+    for (const SE3& pose : T_previous_keyframe_) encodePose(pose, out);
+    out.put(report_.tracking_wall_s);
+    out.put(report_.tracking_cpu_s);
+    const auto warnings = allWarnings();
+    out.putCount(warnings.size());
+    for (const std::string& warning : warnings) out.putText(warning);
+    putFlag(start_.has_value(), out);
+    if (start_) {
+        encodePose(start_->T_up_world, out);
+        encode(start_->sessions, out);
+    }
+    session_.save(out);
+}
+
+void Job::load(ByteReader& in) {
+    frames_read_ = in.get<std::uint32_t>();
+    first_keyframe_ = in.get<std::int32_t>();
+    T_previous_keyframe_.resize(in.getCount(pose_bytes));
+    for (SE3& pose : T_previous_keyframe_) pose = decodePose(in);
+    report_.tracking_wall_s = getFinite(in);
+    report_.tracking_cpu_s = getFinite(in);
+    earlier_warnings_.resize(in.getCount(sizeof(std::uint32_t)));
+    for (std::string& warning : earlier_warnings_) warning = in.getText();
+    if (getFlag(in)) {
+        start_.emplace().T_up_world = decodePose(in);
+        start_->sessions = decodeSessions(in);
+    }
+    session_.load(in);
+}
+
+std::vector<std::string> Job::allWarnings() const {
+    std::vector<std::string> all = earlier_warnings_;
+    const auto own = warnings_.warnings();
+    all.insert(all.end(), own.begin(), own.end());
+    return all;
+}
+
 void Job::track() {
     const Stopwatch watch;
     const double cpu_before = processCpuSeconds();
+    const double earlier_wall_s = report_.tracking_wall_s, earlier_cpu_s = report_.tracking_cpu_s;
     Progress progress("tracking", stream_.expectedFrames());
     stream_.start([&](const RgbdImage& image) { return session_.prepare(image); });
     while (!finished()) {
         const auto frame = nextFrame();
         if (!frame) break;
         trackOne(*frame);
+        ++frames_read_;
         checkLimits();
+        report_.tracking_wall_s = earlier_wall_s + watch.seconds();
+        report_.tracking_cpu_s = earlier_cpu_s + processCpuSeconds() - cpu_before;
+        if (checkpoints_->due(T_previous_keyframe_.size())) writeCheckpoint();
         progress.expect(stream_.expectedFrames());
         progress.update(frame->index + 1, progressNote());
     }
-    report_.tracking_wall_s = watch.seconds();
-    report_.tracking_cpu_s = processCpuSeconds() - cpu_before;
 }
 
 bool Job::finished() const {
@@ -210,9 +324,14 @@ void Job::trackOne(const StreamedFrame& frame) {
     live_feed_.note(frame, tracked, report_.frame_times.back().wall_ms, session_);
     if (!tracked.keyframe) return;
     noteKeyframe(*tracked.keyframe);
-    const RgbdImage image = toRgbdImage(frame.observation);
-    keyframe_sheet_.add(*tracked.keyframe, *last_stamp_s_ - *first_stamp_s_, image.color);
-    if (!start_) level_.addKeyframe(*tracked.keyframe, image, cameraOf(*frame.observation));
+    keepPictures(*tracked.keyframe, frame.observation);
+}
+
+/** Of the frame last looked at: what report and maps will need. */
+void Job::keepPictures(int keyframe, const mrpt::obs::CObservation3DRangeScan::Ptr& observation) {
+    const RgbdImage image = toRgbdImage(observation);
+    keyframe_sheet_.add(keyframe, *last_stamp_s_ - *first_stamp_s_, image.color);
+    if (!start_) level_.addKeyframe(keyframe, image, cameraOf(*observation));
 }
 
 void Job::noteKeyframe(int keyframe) {
@@ -360,7 +479,7 @@ void Job::write() {
         writeMap();
     }
     report_.peak_memory_mb = peakMemoryMb();
-    report_.warnings = warnings_.warnings();
+    report_.warnings = allWarnings();
     writeTextAtomically(path("summary.json"), summaryJson(job_, report_));
     const bool has_keyframes = report_.keyframes > static_cast<std::size_t>(first_keyframe_);
     if (!job_.localises() && has_keyframes) writeReport();
@@ -393,6 +512,12 @@ void Job::writeMap() {
 }
 
 }  // namespace
+
+SlamJob resumedJob(const std::string& out_folder) {
+    SlamJob job = readCheckpoint(out_folder).job;
+    job.resume = true;
+    return job;
+}
 
 JobReport runSlamJob(const SlamJob& job) {
     auto start = readStart(job);

@@ -1,79 +1,23 @@
 #include "rgbd_graphslam/graphslam/sparse_map_file.h"
 
-#include <zlib.h>
-
-#include <filesystem>
-#include <fstream>
-
-#include "rgbd_graphslam/core/atomic_file.h"
-#include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
+#include "sealed_file.h"
 
 namespace rgbd_graphslam {
 namespace {
 
-const std::string magic = "RGBDMAP\n";
-constexpr std::uint32_t format_version = 1;
-
-std::uint32_t checksumOf(std::string_view bytes) {
-    return static_cast<std::uint32_t>(
-        crc32_z(0, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()));
-}
-
-/** In front of the payload. */
-std::string headerOf(const std::string& payload) {
-    ByteWriter header;
-    header.put(format_version);
-    header.put(static_cast<std::uint64_t>(payload.size()));
-    header.put(checksumOf(payload));
-    return magic + header.bytes();
-}
-
-std::string readBytes(const std::string& path) {
-    std::ifstream in(path, std::ios::binary);
-    if (!std::filesystem::is_regular_file(path) || !in) {
-        throw Error("cannot read the map '" + path + "'",
-                    "give the output folder of a run of rgbd-slam");
-    }
-    std::string bytes(std::filesystem::file_size(path), '\0');
-    if (!in.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) {
-        throw Error("cannot read the map '" + path + "'", "check the disk");
-    }
-    return bytes;
-}
-
-/** \return the payload */
-std::string_view checked(const std::string& bytes, const std::string& path) {
-    if (bytes.compare(0, magic.size(), magic) != 0) {
-        throw Error("'" + path + "' is no map of rgbd-slam", "give a map.sparse");
-    }
-    ByteReader header(std::string_view(bytes).substr(magic.size()));
-    const auto version = header.get<std::uint32_t>();
-    if (version != format_version) {
-        throw Error("the map '" + path + "' is of version " + std::to_string(version) +
-                        ", this program reads version " + std::to_string(format_version),
-                    "make it again with this program");
-    }
-    const auto size = header.get<std::uint64_t>();
-    const auto checksum = header.get<std::uint32_t>();
-    const std::string_view payload = std::string_view(bytes).substr(bytes.size() - header.left());
-    if (payload.size() != size) {
-        throw DamagedBytes("it has " + std::to_string(payload.size()) + " of " +
-                           std::to_string(size) + " bytes");
-    }
-    if (checksumOf(payload) != checksum) throw DamagedBytes("its check sum is wrong");
-    return payload;
-}
+const FileKind map_file{"RGBDMAP\n",
+                        1,
+                        "map",
+                        "give the output folder of a run of rgbd-slam",
+                        "give a map.sparse",
+                        "copy it again or make it again"};
 
 SparseMap decode(ByteReader& in) {
     SparseMap map;
     map.config_hash = in.getText();
     map.T_up_world = decodePose(in);
-    const std::size_t sessions = in.getCount(2 * sizeof(std::uint32_t));
-    for (std::size_t s = 0; s < sessions; ++s) {
-        const std::string rawlog = in.getText();
-        map.sessions.push_back({rawlog, in.get<std::int32_t>()});
-    }
+    map.sessions = decodeSessions(in);
     map.snapshot = decodeSnapshot(in);
     int earliest = 0;
     for (const MapSession& session : map.sessions) {
@@ -88,33 +32,39 @@ SparseMap decode(ByteReader& in) {
 
 }  // namespace
 
+void encode(const std::vector<MapSession>& sessions, ByteWriter& out) {
+    out.putCount(sessions.size());
+    for (const MapSession& session : sessions) {
+        out.putText(session.rawlog);
+        out.put<std::int32_t>(session.first_keyframe);
+    }
+}
+
+std::vector<MapSession> decodeSessions(ByteReader& in) {
+    std::vector<MapSession> sessions(in.getCount(2 * sizeof(std::uint32_t)));
+    for (MapSession& session : sessions) {
+        session.rawlog = in.getText();
+        session.first_keyframe = in.get<std::int32_t>();
+    }
+    return sessions;
+}
+
 void writeSparseMap(const std::string& path, const SparseMap& map) {
     ByteWriter payload;
     payload.putText(map.config_hash);
     encodePose(map.T_up_world, payload);
-    payload.putCount(map.sessions.size());
-    for (const MapSession& session : map.sessions) {
-        payload.putText(session.rawlog);
-        payload.put<std::int32_t>(session.first_keyframe);
-    }
+    encode(map.sessions, payload);
     encode(map.snapshot, payload);
-    const std::string header = headerOf(payload.bytes());
-    writeAtomically(path, [&](const std::string& temporary) {
-        std::ofstream out(temporary, std::ios::binary);
-        out << header << payload.bytes();
-        out.close();
-        return out.good();
-    });
+    writeSealed(path, map_file, payload.bytes());
 }
 
 SparseMap readSparseMap(const std::string& path) {
-    const std::string bytes = readBytes(path);
+    const std::string payload = readSealed(path, map_file);
     try {
-        ByteReader in(checked(bytes, path));
+        ByteReader in(payload);
         return decode(in);
     } catch (const DamagedBytes& e) {
-        throw Error("the map '" + path + "' is cut off or damaged: " + e.what(),
-                    "copy it again or make it again");
+        throw damaged(path, map_file, e);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "rgbd_graphslam/core/error.h"
 
@@ -47,6 +48,8 @@ class ByteWriter {
     }
 
     const std::string& bytes() const { return bytes_; }
+    /** The writer is empty afterwards. */
+    std::string take() { return std::move(bytes_); }
 
   private:
     std::string bytes_;

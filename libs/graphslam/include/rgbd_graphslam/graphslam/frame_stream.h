@@ -44,6 +44,10 @@ class FrameStream {
 
     const mrpt::obs::CObservation3DRangeScan& firstFrame() const;
 
+    /** Reads over a frame; only before start(). \return it, not prepared, or nothing at the end
+     *  \throws Error as next() */
+    std::optional<StreamedFrame> skip();
+
     /** \param prepare thread-safe */
     void start(Prepare prepare);
 

@@ -44,6 +44,12 @@ class GraphSlamSession {
     /** Refines the whole map once more. */
     void finish();
 
+    /** All that the steps to come depend on, see VisualSlam::save(). */
+    void save(ByteWriter& out) const;
+    /** For a session that has made no step, with the options and the first frame of the saved one.
+     *  \throws DamagedBytes */
+    void load(ByteReader& in);
+
     const VisualSlam& slam() const;
     /** Pose of the colour camera's optical frame on the robot's base. */
     const SE3& T_base_cam() const;

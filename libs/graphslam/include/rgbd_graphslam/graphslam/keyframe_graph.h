@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "rgbd_graphslam/slam/slam_options.h"
 #include "rgbd_graphslam/slam/stage_times.h"
@@ -23,6 +24,8 @@ struct SharedSlam {
     TrackedFrame last;
     /** Keyframe that the present step has made. */
     std::optional<int> new_keyframe;
+    /** Of the graph, between cameras, in the order in which they came. */
+    std::vector<PoseEdge> edges;
     int loop_edges = 0;
     /** Whether the present step has added loop edges. */
     bool loops_found = false;
@@ -60,6 +63,14 @@ mrpt::poses::CPose3D robotPose(const SE3& T_world_cam, const SE3& T_base_cam);
 /** The edge between robot poses that says the same as one between cameras; its information is
  *  carried over to MRPT's parameters (x, y, z, yaw, pitch, roll) to first order. */
 KeyframeGraph::constraint_t robotEdge(const PoseEdge& edge, const SE3& T_base_cam);
+
+/** Keeps an edge for save(). \return what the graph gets */
+KeyframeGraph::constraint_t registered(const PoseEdge& edge, SharedSlam& shared);
+
+/** The SLAM and the graph's edges. */
+void save(const KeyframeGraph& graph, ByteWriter& out);
+/** Into a graph without nodes whose SLAM was started. \throws DamagedBytes */
+void load(ByteReader& in, KeyframeGraph& graph);
 
 /** Moves the nodes to where the SLAM has its keyframes now. */
 void updateNodes(KeyframeGraph& graph);

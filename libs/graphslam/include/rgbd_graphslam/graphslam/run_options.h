@@ -10,6 +10,7 @@ struct RunOptions : Options {
     int max_frames = 0;
     int max_keyframes = 0;
     int max_memory_mb = 0;
+    int checkpoint_keyframes = 50;
     bool dense_maps = true;
 
     const char* section() const override { return "RunOptions"; }

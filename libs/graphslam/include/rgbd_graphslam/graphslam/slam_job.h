@@ -18,6 +18,8 @@ struct SlamJob {
     MapUse map_use = MapUse::Localise;
     /** Starts rgbd-viewer beside the run. */
     bool view = false;
+    /** Goes on from the checkpoint in the output folder; see resumedJob(). */
+    bool resume = false;
 
     bool localises() const { return !map_folder.empty() && map_use == MapUse::Localise; }
 };
@@ -76,11 +78,21 @@ struct JobReport {
  *  only; extending writes everything, of both runs, but trajectory.txt and frames.csv have the
  *  frames of this rawlog.
  *
+ *  After every so many keyframes a checkpoint is written into the folder, and removed at the end. A
+ *  run that goes on from it reads over what was tracked and ends with the same trajectory, graph,
+ *  frames.csv and maps as one that was never ended; times of stages are of what it tracked itself.
+ *  A run that localises writes none.
+ *
  *  A rawlog that is cut off or damaged, SIGINT or SIGTERM, and the limits on keyframes and memory
  *  end the tracking; what was mapped by then is written and the report says so.
  *  \throws Error when the rawlog has no RGB-D frame, nothing could be mapped or located, the
  * earlier map cannot be read or does not fit, or the folder cannot be written */
 JobReport runSlamJob(const SlamJob& job);
+
+/** What the run in a folder was doing when it was killed or interrupted.
+ *  \throws Error when there is no checkpoint, it is damaged, another version of the program wrote
+ * it, or the rawlog is not the one that it was written for */
+SlamJob resumedJob(const std::string& out_folder);
 
 /** A few lines for people. */
 std::string resultTable(const SlamJob& job, const JobReport& report);

@@ -13,6 +13,10 @@ struct MapSession {
     int first_keyframe = 0;
 };
 
+void encode(const std::vector<MapSession>& sessions, ByteWriter& out);
+/** \throws DamagedBytes */
+std::vector<MapSession> decodeSessions(ByteReader& in);
+
 struct SparseMap {
     MapSnapshot snapshot;
     /** From the map's own world to the upright one of the run's output. */
