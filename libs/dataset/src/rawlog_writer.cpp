@@ -23,7 +23,7 @@ namespace {
 /** The disk does not take it. */
 class WriteFailure : public std::exception {};
 
-constexpr int small_jpeg_quality = 90, small_gz_level = 9;
+constexpr int small_jpeg_quality = 90, small_gz_level = 4;
 
 /** All in one file. `Stream` is one of MRPT's for files. */
 template <class Stream>

@@ -108,7 +108,7 @@ void plotPanels(const std::vector<ErrorPanel>& panels, const std::string& path,
     constexpr int width = 640, panel_height = 290;
     Gnuplot plot(path, width, panel_height * static_cast<int>(panels.size()));
     setStyle(plot);
-    plot.command("set lmargin 10");
+    plot.command("set lmargin 11");
     plot.command("set multiplot layout " + std::to_string(panels.size()) + ",1");
     for (const auto& panel : panels) {
         plot_panel(plot, panel);

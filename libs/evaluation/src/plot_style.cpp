@@ -26,6 +26,7 @@ std::string number(double value) {
 void setStyle(Gnuplot& plot) {
     plot.command("set border 3 linecolor '#404040'");
     plot.command("set tics nomirror out textcolor '#202020'");
+    plot.command("set format '%g'");  // the default's blank for a sign puts labels off their tics
     plot.command("set grid linetype 1 linecolor '#e4e4e4' linewidth 0.6");
     plot.command("set key above center horizontal Left reverse samplen 2");
 }
