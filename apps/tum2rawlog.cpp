@@ -64,7 +64,7 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_flag("--compact", args.compact,
                  "Keep images lossless in files beside the rawlog: smaller, slower to read");
     app.add_flag("--small", args.small,
-                 "One compressed file, colour as JPEG: smallest, slow to write, colour not exact")
+                 "One compressed file, colour as JPEG: smallest, slower, colour not exact")
         ->excludes("--compact");
     app.add_flag("--strict", args.import.strict, "A listed file that is missing is an error");
     app.add_flag("--skip-damaged", args.import.skip_damaged,
