@@ -35,9 +35,15 @@ std::string orDash(const std::optional<double>& value, int decimals) {
     return value ? fixed(*value, decimals) : "–";
 }
 
+/** The sequence that a result is of, wherever its folder lay: "freiburg1_rgbd_dataset_..." too. */
+const KnownSequence* knownAs(const std::string& name, const std::vector<KnownSequence>& table) {
+    const auto at = name.rfind("rgbd_dataset_");
+    return findSequence(table, at == std::string::npos ? name : name.substr(at));
+}
+
 std::vector<std::string> cellsOf(const SequenceResult& result,
                                  const std::vector<KnownSequence>& table) {
-    const KnownSequence* known = findSequence(table, result.name);
+    const KnownSequence* known = knownAs(result.name, table);
     const std::string best = orDash(known ? known->best_ate_m : std::nullopt, 4);
     std::vector<std::string> cells = {result.name};
     if (!result.problem.empty()) {
@@ -49,11 +55,12 @@ std::vector<std::string> cellsOf(const SequenceResult& result,
     for (const std::size_t count : {result.frames, result.lost, result.keyframes, result.loops}) {
         cells.push_back(std::to_string(count));
     }
-    cells.insert(cells.end(), {orDash(result.ate_rmse_m, 4), best,
-                               std::to_string(result.matched_poses), orDash(result.rpe_rmse_m, 4),
-                               orDash(result.rpe_rmse_deg, 3), fixed(result.cpu_ms_a_frame, 1),
-                               fixed(result.frames_per_s, 1), fixed(result.peak_memory_mb, 0),
-                               fixed(result.import_s, 1), fixed(result.slam_s, 1)});
+    cells.insert(cells.end(),
+                 {orDash(result.ate_rmse_m, 4), best, std::to_string(result.matched_poses),
+                  orDash(result.rpe_rmse_m, 4), orDash(result.rpe_rmse_deg, 3),
+                  fixed(result.cpu_ms_a_frame, 1), fixed(result.frames_per_s, 1),
+                  fixed(result.peak_memory_mb, 0),
+                  result.import_s > 0 ? fixed(result.import_s, 1) : "–", fixed(result.slam_s, 1)});
     return cells;
 }
 
@@ -64,7 +71,7 @@ std::string summaryOf(const std::vector<SequenceResult>& results,
     for (const auto& result : results) {
         if (!result.problem.empty()) ++failed;
         if (!result.version.empty()) version = result.version;
-        const KnownSequence* known = findSequence(table, result.name);
+        const KnownSequence* known = knownAs(result.name, table);
         if (!known || !known->best_ate_m || !result.ate_rmse_m) continue;
         ++compared;
         if (*result.ate_rmse_m <= *known->best_ate_m) ++as_good;

@@ -86,7 +86,11 @@ nlohmann::ordered_json jsonOf(const Report& report) {
     nlohmann::ordered_json object{{"name", report.name}};
     for (const auto& figure : report.figures) {
         auto& entry = object["figures"][figure.name];
-        entry["value"] = figure.value;  // null when not finite
+        if (figure.decimals == 0) {
+            entry["value"] = std::llround(figure.value);
+        } else {
+            entry["value"] = figure.value;  // null when not finite
+        }
         if (!figure.unit.empty()) entry["unit"] = figure.unit;
     }
     return object;

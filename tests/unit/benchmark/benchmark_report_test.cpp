@@ -64,6 +64,14 @@ TEST_F(Report, ourFigureStandsBesideTheBestPublished) {
     EXPECT_THAT(text, HasSubstr("Failed: " + broken().problem));
 }
 
+TEST_F(Report, theBestPublishedIsFoundAtAnyDepth) {
+    SequenceResult deep = desk();
+    deep.name = "handheld_freiburg1_" + deep.name;
+    folder_.write("deep/" + deep.name + "/result.json", toJson(deep));
+    writeReport(folder_ / "deep", table);
+    EXPECT_THAT(readText(folder_ / "deep/report.md"), HasSubstr("| 0.0123 | 0.0150 |"));
+}
+
 TEST_F(Report, theHtmlFileNeedsNothingElse) {
     writeReport(folder_ / "out", table);
     const std::string text = readText(folder_ / "out/report.html");

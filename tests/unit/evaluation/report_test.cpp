@@ -66,6 +66,9 @@ TEST(Report, isJson) {
     EXPECT_EQ(json[0]["figures"]["error.rmse"]["value"], 0.5);
     EXPECT_EQ(json[0]["figures"]["error.rmse"]["unit"], "m");
     EXPECT_TRUE(json[1]["figures"]["error.rmse"]["value"].is_null());
+    const auto counted = nlohmann::json::parse(
+        format({rgbd_graphslam::Report{"c", {{"poses", 3, "", 0}}}}, ReportFormat::Json));
+    EXPECT_TRUE(counted[0]["figures"]["poses"]["value"].is_number_integer());
 }
 
 TEST(Report, isLatex) {
