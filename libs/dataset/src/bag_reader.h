@@ -15,8 +15,8 @@ struct BagMessage {
     const std::string& bytes;
 };
 
-/** Reads a file of bag format 2.0 (wiki.ros.org/Bags/Format/2.0) from front to back, in the order
- * of recording. Memory stays at one chunk. Chunks may be plain, bz2 or lz4. */
+/** Reads a file of bag format 2.0 (wiki.ros.org/Bags/Format/2.0) from front to back, in the
+ *  order of recording. Memory stays at one chunk. Chunks may be plain, bz2 or lz4. */
 class BagReader {
   public:
     /** \throws Error when the file is missing or no bag of format 2.0 */

@@ -111,7 +111,7 @@ class RawlogReader::Implementation {
     }
 
     /** Blocks hold what is in the file, twice at most while they grow; how much a gz file will
-     * unpack to is not known. */
+     *  unpack to is not known. */
     std::size_t mostBytesOfBlock() const {
         constexpr std::size_t always = std::size_t{64} << 20, never = std::size_t{1} << 30;
         if (gz_size_) return never;

@@ -22,7 +22,8 @@ std::string pointsOf(const std::string& data, const std::string& color, const st
 std::string plotOf(const std::vector<std::string>& parts);
 
 /** Rows, one a stamp, with an empty row wherever the pause between two stamps is so long that a
- *  line across would mislead. \param rows as many as stamps */
+ *  line across would mislead.
+ *  \param rows as many as stamps */
 Gnuplot::Rows interruptedAtGaps(const std::vector<double>& stamps_s, Gnuplot::Rows rows);
 
 }  // namespace rgbd_graphslam

@@ -5,8 +5,8 @@
 
 namespace rgbd_graphslam {
 
-/** Where a file or folder is made until it is whole: beside `path`, under a name that ends like it
- * and tells machine and process, so that makeWritableFolder() knows what is abandoned. */
+/** Where a file or folder is made until it is whole: beside `path`, under a name that ends like
+ *  it and tells machine and process, so that makeWritableFolder() knows what is abandoned. */
 std::string temporaryName(const std::string& path);
 
 /** Calls `write(temporary_path)`, flushes the file to disk and renames it to `path`; a kill at any
@@ -22,7 +22,8 @@ void writeAtomically(const std::string& path,
 void writeTextAtomically(const std::string& path, const std::string& text);
 
 /** Makes a folder with its parents if it must, and removes what killed processes of this machine
- * left half-written in it. \throws Error naming the folder */
+ *  left half-written in it.
+ *  \throws Error naming the folder */
 void makeWritableFolder(const std::string& path);
 
 }  // namespace rgbd_graphslam

@@ -5,8 +5,8 @@
 namespace rgbd_graphslam {
 
 /** A folder under a temporary name that goes when this object goes, unless it was moved to its
- * final name; a killed process's is removed by the next makeWritableFolder() for the folder around
- * it. */
+ *  final name; a killed process's is removed by the next makeWritableFolder() for the folder
+ *  around it. */
 class TemporaryFolder {
   public:
     /** Makes it beside `final_path`. \throws Error naming it when that cannot be */

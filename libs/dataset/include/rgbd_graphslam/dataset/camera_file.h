@@ -40,11 +40,11 @@ std::optional<CameraSetup> cameraByName(const std::string& name);
 std::optional<CameraSetup> cameraByFolderName(const std::string& folder);
 
 /** Reads section `[CAMERA_PARAMS]` as `mrpt::img::TCamera::loadFromConfigFile` does: resolution,
- * fx, fy, cx, cy (px), distortion_model, dist. `dist` without `distortion_model` counts as
- * plumb_bob (MRPT would ignore it silently). Further keys, all optional: depth_units (a metre),
- * depth_scale, sensor_pose and imu_pose as `[x y z yaw pitch roll]` in m and degrees. \throws Error
- * naming file and key for a missing or unknown key, a value out of range, or a lens model other
- * than plumb_bob with up to 5 coefficients */
+ *  fx, fy, cx, cy (px), distortion_model, dist. `dist` without `distortion_model` counts as
+ *  plumb_bob (MRPT would ignore it silently). Further keys, all optional: depth_units (a metre),
+ *  depth_scale, sensor_pose and imu_pose as `[x y z yaw pitch roll]` in m and degrees.
+ *  \throws Error naming file and key for a missing or unknown key, a value out of range, or a
+ *          lens model other than plumb_bob with up to 5 coefficients */
 CameraSetup readCameraFile(const std::string& path);
 
 /** The text that readCameraFile reads back to the same numbers. */

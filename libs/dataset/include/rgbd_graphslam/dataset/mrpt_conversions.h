@@ -40,8 +40,8 @@ inline double toSeconds(mrpt::Clock::time_point time) {
     return static_cast<double>((time - epoch).count()) / mrpt::Clock::period::den;
 }
 
-/** Rounded to the microsecond, so that the decimals of a dataset's stamps survive. \param stamp_s
- *  UNIX time in seconds */
+/** Rounded to the microsecond, so that the decimals of a dataset's stamps survive.
+ *  \param stamp_s UNIX time in seconds */
 inline mrpt::Clock::time_point toMrptTime(double stamp_s) {
     static const mrpt::Clock::time_point epoch = mrpt::Clock::fromDouble(0);
     const auto microseconds = static_cast<mrpt::Clock::rep>(std::llround(stamp_s * 1e6));

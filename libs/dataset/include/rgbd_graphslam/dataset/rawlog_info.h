@@ -13,7 +13,7 @@ struct RawlogInfo {
     /** UNIX time of the first and last RGB-D frame in file order; 0 without frames. */
     double first_stamp_s = 0, last_stamp_s = 0;
     /** Of the first frame: calibration, depth unit, pose of the camera's optical frame on the
-     * robot, and whether depth is registered to colour. */
+     *  robot, and whether depth is registered to colour. */
     Camera camera;
     double depth_unit_m = 0;
     SE3 T_base_cam;

@@ -9,9 +9,9 @@
 namespace rgbd_graphslam {
 
 /** One pass over a rawlog file, plain or gz, in file order. Memory stays at one entry. Images
- * stored outside the rawlog are looked for in `<name>_Images` beside it (MRPT keeps one such folder
- * a process: do not load external images of two rawlogs in turn while one of them is read by
- * another thread). */
+ *  stored outside the rawlog are looked for in `<name>_Images` beside it (MRPT keeps one such
+ *  folder a process: do not load external images of two rawlogs in turn while one of them is
+ *  read by another thread). */
 class RawlogReader {
   public:
     /** \throws Error when the file is missing, empty or does not start like a rawlog */

@@ -32,8 +32,8 @@ class RawlogWriter {
 };
 
 /** Calls `fill` with a writer. The rawlog and its images folder replace older ones of that name
- * only when all is written. \throws Error naming the path when it cannot be written; what fill
- * throws passes through */
+ *  only when all is written.
+ *  \throws Error naming the path when it cannot be written; what fill throws passes through */
 void writeRawlog(const std::string& path, RawlogStorage storage,
                  const std::function<void(RawlogWriter&)>& fill);
 

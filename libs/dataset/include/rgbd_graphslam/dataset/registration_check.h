@@ -12,8 +12,9 @@ namespace rgbd_graphslam {
  *  of a 640 pixel wide image are tried. */
 class RegistrationCheck {
   public:
-    /** \param color CV_8UC3; \param depth CV_16UC1 of the same size, 0 = no reading. Frames with
-     *  hardly a jump in depth say nothing and are passed over. */
+    /** Takes a frame; one with hardly a jump in depth says nothing and is passed over.
+     *  \param color CV_8UC3
+     *  \param depth CV_16UC1 of the same size, 0 = no reading */
     void add(const cv::Mat& color, const cv::Mat& depth);
 
     /** By how many pixels of the image depth lies right of and below its place in colour. Nothing

@@ -15,9 +15,9 @@ inline constexpr const char* odometry_label = "ODOMETRY";
 inline constexpr const char* ground_truth_label = "GROUND_TRUTH";
 
 /** The frame in our terms. Pixels are shared with the observation, which `owner` keeps alive;
- * images stored outside the rawlog are loaded; the grey image is made here. \throws Error naming
- * the stamp when colour or depth is absent, unreadable or of different size, or when ranges are not
- * depths along the optical axis */
+ *  images stored outside the rawlog are loaded; the grey image is made here.
+ *  \throws Error naming the stamp when colour or depth is absent, unreadable or of different
+ *          size, or when ranges are not depths along the optical axis */
 RgbdImage toRgbdImage(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
 
 /** Calibration of the colour camera. */

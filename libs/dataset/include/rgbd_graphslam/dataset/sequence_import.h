@@ -59,9 +59,9 @@ std::string toText(const ImportReport& report);
 
 /** Writes colour and depth pairs (stamped by colour), accelerometer and gyroscope, odometry and
  *  ground truth to a rawlog, in order of time over all sensors. Depth keeps its bits; its own
- * stamps are kept as DepthStamps. Shows progress. \throws Error when nothing can be paired, an
- * image is of the wrong kind or size, a damaged or (if strict) missing image is met, or the rawlog
- * cannot be written */
+ *  stamps are kept as DepthStamps. Shows progress.
+ *  \throws Error when nothing can be paired, an image is of the wrong kind or size, a damaged or
+ *          (if strict) missing image is met, or the rawlog cannot be written */
 ImportReport importSequence(const RgbdSequence& sequence, const CameraSetup& setup,
                             const std::string& rawlog_path, const ImportOptions& options);
 

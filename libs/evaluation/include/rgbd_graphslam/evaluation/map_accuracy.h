@@ -25,8 +25,8 @@ struct MapAccuracy {
      *  given as points. */
     Statistics distance_m;
     double distance_95_m = 0;  // 95 % of the points are nearer
-    /** Share of the surface, seen or not, by area (by number for a surface given as points), that
-     * has a point of the map within the completeness distance. */
+    /** Share of the surface, seen or not, by area (by number for a surface given as points),
+     *  that has a point of the map within the completeness distance. */
     double completeness = 0;
     /** The same of what the camera saw; nothing when it is not told what that is. */
     std::optional<double> completeness_of_seen;

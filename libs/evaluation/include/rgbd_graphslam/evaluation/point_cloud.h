@@ -24,7 +24,8 @@ class PointCloudBuilder {
     PointCloudBuilder(const Camera& camera, const PointCloudOptions& options);
 
     /** Adds the pixels that have a depth; with distortion, along their true rays.
-     *  \param image with colour, of the camera's size \throws Error when it is of another size */
+     *  \param image with colour, of the camera's size
+     *  \throws Error when it is of another size */
     void add(const RgbdImage& image, const SE3& T_world_cam);
 
     const PlyModel& cloud() const { return cloud_; }

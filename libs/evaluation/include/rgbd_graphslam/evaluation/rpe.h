@@ -41,7 +41,7 @@ struct RpeResult {
 
 /** The definition of Sturm et al., IROS 2012, with the look-ups and figures of the benchmark's
  *  tools: each stamp of the estimate takes the nearest truth, and a pair counts when both are
- * within twice the median interval of the truth. Of poses with the same stamp the last counts.
+ *  within twice the median interval of the truth. Of poses with the same stamp the last counts.
  *  \throws Error when fewer than two pairs are left, with the time spans of both trajectories */
 RpeResult evaluateRpe(const Trajectory& estimate, const Trajectory& truth,
                       const RpeOptions& options = {});

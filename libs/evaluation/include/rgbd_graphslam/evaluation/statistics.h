@@ -14,8 +14,9 @@ struct Statistics {
 /** All zero for no values. */
 Statistics statisticsOf(const std::vector<double>& values);
 
-/** The value below which `share` in [0, 1] of the values lie, linear between neighbours; the
- *  median is percentileOf(values, 0.5). \throws Error for no values */
+/** The value below which `share` in [0, 1] of the values lie, linear between neighbours; the median
+ *  is percentileOf(values, 0.5).
+ *  \throws Error for no values */
 double percentileOf(std::vector<double> values, double share);
 
 }  // namespace rgbd_graphslam

@@ -23,14 +23,15 @@ struct SightOptions {
  *  front at each pixel. */
 class SurfaceSight {
   public:
-    /** \param surface triangles, in the frame of the poses \param cameras camera to world
+    /** \param surface triangles, in the frame of the poses
+     *  \param cameras camera to world
      *  \throws Error for a surface without triangles or no pose */
     SurfaceSight(const PlyModel& surface, const Camera& camera, const Trajectory& cameras,
                  const SightOptions& options = {});
 
-    /** Whether one of the views shows this place of the surface: within range, and seen
-     *  steeply enough, and no triangle stands before it. \param p on the surface, give or take a
-     * millimetre */
+    /** Whether one of the views shows this place of the surface: within range, and seen steeply
+     *  enough, and no triangle stands before it.
+     *  \param p on the surface, give or take a millimetre */
     bool sees(const Eigen::Vector3d& p) const;
 
   private:
