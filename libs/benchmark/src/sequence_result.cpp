@@ -7,66 +7,41 @@
 
 #include "rgbd_graphslam/core/error.h"
 
+namespace nlohmann {
+
+/** Nothing is null. */
+template <>
+struct adl_serializer<std::optional<double>> {
+    static void to_json(json& json, const std::optional<double>& value) {
+        if (value) {
+            json = *value;
+        } else {
+            json = nullptr;
+        }
+    }
+    static void from_json(const json& json, std::optional<double>& value) {
+        value.reset();
+        if (!json.is_null()) value = json.get<double>();
+    }
+};
+
+}  // namespace nlohmann
+
 namespace rgbd_graphslam {
-namespace {
 
-using Json = nlohmann::ordered_json;
-
-Json orNull(const std::optional<double>& value) {
-    return value ? Json(*value) : Json();
-}
-
-std::optional<double> optionalNumber(const Json& json) {
-    if (json.is_null()) return std::nullopt;
-    return json.get<double>();
-}
-
-}  // namespace
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SequenceResult, name, fingerprint, problem, version, frames,
+                                   lost, keyframes, loops, ate_rmse_m, rpe_rmse_m, rpe_rmse_deg,
+                                   matched_poses, cpu_ms_a_frame, frames_per_s, peak_memory_mb,
+                                   import_s, slam_s)
 
 std::string toJson(const SequenceResult& result) {
-    const Json json = {{"name", result.name},
-                       {"fingerprint", result.fingerprint},
-                       {"problem", result.problem},
-                       {"version", result.version},
-                       {"frames", result.frames},
-                       {"lost", result.lost},
-                       {"keyframes", result.keyframes},
-                       {"loops", result.loops},
-                       {"ate_rmse_m", orNull(result.ate_rmse_m)},
-                       {"rpe_rmse_m", orNull(result.rpe_rmse_m)},
-                       {"rpe_rmse_deg", orNull(result.rpe_rmse_deg)},
-                       {"matched_poses", result.matched_poses},
-                       {"cpu_ms_a_frame", result.cpu_ms_a_frame},
-                       {"frames_per_s", result.frames_per_s},
-                       {"peak_memory_mb", result.peak_memory_mb},
-                       {"import_s", result.import_s},
-                       {"slam_s", result.slam_s}};
-    return json.dump(2) + "\n";
+    return nlohmann::json(result).dump(2) + "\n";
 }
 
 SequenceResult resultFromJson(const std::string& text, const std::string& path) {
     try {
-        const Json json = Json::parse(text);
-        SequenceResult result;
-        json.at("name").get_to(result.name);
-        json.at("fingerprint").get_to(result.fingerprint);
-        json.at("problem").get_to(result.problem);
-        json.at("version").get_to(result.version);
-        json.at("frames").get_to(result.frames);
-        json.at("lost").get_to(result.lost);
-        json.at("keyframes").get_to(result.keyframes);
-        json.at("loops").get_to(result.loops);
-        result.ate_rmse_m = optionalNumber(json.at("ate_rmse_m"));
-        result.rpe_rmse_m = optionalNumber(json.at("rpe_rmse_m"));
-        result.rpe_rmse_deg = optionalNumber(json.at("rpe_rmse_deg"));
-        json.at("matched_poses").get_to(result.matched_poses);
-        json.at("cpu_ms_a_frame").get_to(result.cpu_ms_a_frame);
-        json.at("frames_per_s").get_to(result.frames_per_s);
-        json.at("peak_memory_mb").get_to(result.peak_memory_mb);
-        json.at("import_s").get_to(result.import_s);
-        json.at("slam_s").get_to(result.slam_s);
-        return result;
-    } catch (const Json::exception&) {
+        return nlohmann::json::parse(text).get<SequenceResult>();
+    } catch (const nlohmann::json::exception&) {
         throw Error("'" + path + "' is no result of rgbd-benchmark", "remove it");
     }
 }

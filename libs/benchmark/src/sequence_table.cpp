@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/ini_formulas.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -102,6 +103,7 @@ std::vector<KnownSequence> readSequenceTable(const std::string& path) {
     std::ifstream in(path);
     std::stringstream text;
     if (!in || !(text << in.rdbuf())) throw Error("cannot read '" + path + "'", "check its name");
+    refuseFormulas(text.str(), path);
     mrpt::config::CConfigFileMemory config;
     config.setContent(text.str());
     std::vector<std::string> names;

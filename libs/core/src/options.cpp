@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/ini_formulas.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -218,11 +219,12 @@ IniFile IniFile::fromFile(const std::string& path) {
 
 IniFile IniFile::fromText(const std::string& text, const std::string& name) {
     checkIsText(text, name);
+    refuseFormulas(text, name);
     const auto origins = locateKeys(text, name);
     mrpt::config::CConfigFileMemory mrpt_ini;
     try {
         mrpt_ini.setContent(text);
-    } catch (const std::exception& e) {  // MRPT's $env{} and $eval{}
+    } catch (const std::exception& e) {  // MRPT's variables
         throw Error("'" + name + "': " + e.what(), "mend or remove the line");
     }
     IniFile ini;

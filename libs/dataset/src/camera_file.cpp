@@ -12,6 +12,7 @@
 
 #include "number_text.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/ini_formulas.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 
 namespace rgbd_graphslam {
@@ -42,9 +43,10 @@ class CameraFile {
             throw Error("cannot read the camera file '" + path + "'",
                         "give fr1, fr2, fr3, ros or an ini file");
         }
+        refuseFormulas(text.str(), path);
         try {
             config_.setContent(text.str());
-        } catch (const std::exception& e) {  // MRPT's $env{} and $eval{}
+        } catch (const std::exception& e) {  // MRPT's variables
             refuse(e.what());
         }
         if (!config_.sectionExists(section))

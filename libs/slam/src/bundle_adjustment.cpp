@@ -3,7 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
-#include "robust_kernel.h"
+#include "rgbd_graphslam/slam/robust_kernel.h"
 
 namespace rgbd_graphslam {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <Eigen/Cholesky>
 
-#include "robust_kernel.h"
+#include "rgbd_graphslam/slam/robust_kernel.h"
 
 namespace rgbd_graphslam {
 namespace {

@@ -17,6 +17,12 @@ using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
+TEST(SequenceTable, formulasOfMrptAreRefused) {
+    const TestFolder folder;
+    folder.write("a.ini", "[fr1/xyz]\nurl = https://$env{HOME}\n");
+    EXPECT_THROW(readSequenceTable(folder / "a.ini"), Error);
+}
+
 TEST(SequenceTable, theShippedOneIsWhole) {
     const auto table = readSequenceTable(RGBD_SOURCE_DIR "/ini/tum-sequences.ini");
     EXPECT_GE(table.size(), 30u);

@@ -8,6 +8,11 @@
 namespace rgbd_graphslam {
 namespace {
 
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::Not;
+using ::testing::StartsWith;
+
 struct SampleOptions : Options {
     double size_m = 0.1;
     int count = 7;
@@ -33,6 +38,24 @@ std::string problemOf(const std::string& text) {
     return "";
 }
 
+TEST(IniFile, formulasOfMrptAreRefusedWithTheirLine) {
+    ASSERT_EQ(setenv("RGBD_SIZE", "0.7", 1), 0);
+    for (const char* line : {"size_m = $env{RGBD_SIZE}", "size_m = $eval{0.1 + 0.2}",
+                             "# $env{RGBD_SIZE}", "size_m = $env{RGBD_SIZE"}) {
+        const std::string problem = problemOf(std::string("[SampleOptions]\n") + line + "\n");
+        EXPECT_THAT(problem, StartsWith("a.ini:2: '$e")) << line;
+        EXPECT_THAT(problem, EndsWith("; write the value itself")) << line;
+        EXPECT_THAT(problem, Not(HasSubstr("0.7"))) << line;
+    }
+}
+
+TEST(IniFile, overridesAreNotEvaluated) {
+    SampleOptions options;
+    IniFile ini = IniFile::fromText("", "");
+    ini.override("SampleOptions.size_m=$eval{0.1 + 0.2}");
+    EXPECT_THROW(ini.load({&options}), Error);
+}
+
 TEST(IniFile, bytesOfOtherFilesAreNotQuoted) {
     EXPECT_EQ(problemOf(std::string("\x1f\x8b\x08\0rest", 8)),
               "'a.ini' is no text file; name an ini file here");
@@ -41,7 +64,8 @@ TEST(IniFile, bytesOfOtherFilesAreNotQuoted) {
 
 TEST(IniFile, readsEveryKindOfValueAndComment) {
     SampleOptions options;
-    IniFile::fromText("; note\n[SampleOptions]\nsize_m = 0.25 // [m]\ncount=3\nfast=false\nmode=far\n", "a.ini")
+    IniFile::fromText(
+        "; note\n[SampleOptions]\nsize_m = 0.25 // [m]\ncount=3\nfast=false\nmode=far\n", "a.ini")
         .load({&options});
     EXPECT_EQ(options.size_m, 0.25);
     EXPECT_EQ(options.count, 3);
@@ -63,7 +87,8 @@ TEST(IniFile, printedTextReadsBackToTheSameValues) {
 TEST(IniFile, namesLineAndRemedyOfMistakes) {
     using testing::AllOf;
     using testing::HasSubstr;
-    EXPECT_THAT(problemOf("[SampleOptions]\ncuont = 3"), AllOf(HasSubstr("a.ini:2"), HasSubstr("'count'")));
+    EXPECT_THAT(problemOf("[SampleOptions]\ncuont = 3"),
+                AllOf(HasSubstr("a.ini:2"), HasSubstr("'count'")));
     EXPECT_THAT(problemOf("[SampleOption]\ncount = 3"), HasSubstr("SampleOptions"));
     EXPECT_THAT(problemOf("[SampleOptions]\ncount = 30"), HasSubstr("from 1 to 9"));
     EXPECT_THAT(problemOf("[SampleOptions]\nsize_m = nan"), HasSubstr("cannot be used"));

@@ -13,6 +13,17 @@ namespace {
 
 using ::testing::HasSubstr;
 
+TEST(CameraFile, formulasOfMrptAreRefused) {
+    const TestFolder folder;
+    folder.write("camera.ini", "[CAMERA_PARAMS]\nfx = $env{HOME}\n");
+    try {
+        readCameraFile(folder / "camera.ini");
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_THAT(e.what(), HasSubstr("camera.ini:2: '$env{}' is not evaluated"));
+    }
+}
+
 void expectSame(const CameraSetup& a, const CameraSetup& b) {
     EXPECT_EQ(a.camera.width, b.camera.width);
     EXPECT_EQ(a.camera.height, b.camera.height);
