@@ -158,8 +158,13 @@ class Import {
         setColor(*frame, loaded.color);
         setDepth(*frame, loaded.depth);
         writer.writeFrame(*frame, loaded.color_file);
-        if (report_.frames++ == 0) report_.first_stamp_s = pair.color.stamp_s;
-        report_.last_stamp_s = pair.color.stamp_s;
+        const double stamp_s = pair.color.stamp_s;
+        if (report_.frames++ == 0) {
+            report_.first_stamp_s = stamp_s;
+        } else {
+            report_.longest_gap_s = std::max(report_.longest_gap_s, stamp_s - report_.last_stamp_s);
+        }
+        report_.last_stamp_s = stamp_s;
     }
 
     void countDamage(const std::string& damage) {
@@ -212,8 +217,9 @@ void warnOf(const Eigen::Vector2d& misalignment_px, bool is_registered) {
 std::string toText(const ImportReport& report) {
     const double span = report.last_stamp_s - report.first_stamp_s;
     char line[256];
-    std::snprintf(line, sizeof(line), "%zu frames over %.2f s, %.1f a second", report.frames, span,
-                  span > 0 ? (report.frames - 1) / span : 0.0);
+    std::snprintf(line, sizeof(line), "%zu frames over %.2f s, %.1f a second, longest gap %.2f s",
+                  report.frames, span, span > 0 ? (report.frames - 1) / span : 0.0,
+                  report.longest_gap_s);
     std::string text = line;
     if (report.damaged > 0) text += "; " + std::to_string(report.damaged) + " left out as damaged";
     text += "\n" + tallyText("colour", "depth", report.color) +

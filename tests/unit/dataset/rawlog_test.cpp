@@ -367,6 +367,8 @@ TEST_F(RawlogTest, leftOverImagesAreCountedByReason) {
     EXPECT_EQ(report.color.no_partner, 1u) << "0.5";
     EXPECT_EQ(report.color.backwards, 2u);
     EXPECT_EQ(report.depth.no_partner, 1u) << "9";
+    EXPECT_NEAR(report.longest_gap_s, 3.99, 1e-6) << "1.01 to 5";
+    EXPECT_THAT(toText(report), ::testing::HasSubstr("longest gap 3.99 s"));
     EXPECT_TRUE(samePixels(toRgbdImage(framesOf(rawlog())[0]).color, small_sequence::color(1)));
 }
 

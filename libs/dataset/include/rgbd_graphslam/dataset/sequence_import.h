@@ -50,6 +50,8 @@ struct ImportReport {
     std::optional<Eigen::Vector2d> misalignment_px;
     /** Stamps of the first and last frame, UNIX time. */
     double first_stamp_s = 0, last_stamp_s = 0;
+    /** Between two frames that follow each other. */
+    double longest_gap_s = 0;
     /** Duration of the import. */
     double seconds = 0;
 };
