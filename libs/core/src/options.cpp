@@ -271,6 +271,7 @@ void IniFile::loadKnown(const std::vector<Options*>& structs) const {
 void IniFile::load(const std::vector<Options*>& structs) const {
     loadKnown(structs);
     std::vector<std::string> known_sections;
+    known_sections.reserve(structs.size());
     for (const Options* options : structs) known_sections.emplace_back(options->section());
     for (const auto& [section, entries] : sections_) {
         if (std::find(known_sections.begin(), known_sections.end(), section) !=

@@ -67,7 +67,7 @@ class RawlogReader::Implementation {
         while (waiting_.empty() && readEntry()) continue;
         if (waiting_.empty()) return nullptr;
         useOwnImages();
-        const auto observation = waiting_.front();
+        auto observation = waiting_.front();
         waiting_.pop_front();
         return observation;
     }

@@ -52,6 +52,7 @@ void buildPyramid(const cv::Mat& grey, const std::vector<float>& scale, Scratch&
         } else {
             cv::resize(scratch.levels[l - 1].sharp, level.sharp, size, 0, 0, cv::INTER_LINEAR);
         }
+        // reads 3 px beyond the level, where old frames are; no descriptor reaches what comes of it
         cv::GaussianBlur(level.sharp, level.smooth, cv::Size(7, 7), 2, 2, cv::BORDER_REFLECT_101);
     }
 }

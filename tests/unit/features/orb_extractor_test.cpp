@@ -1,6 +1,7 @@
 #include "rgbd_graphslam/features/orb_extractor.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <cmath>
@@ -102,6 +103,21 @@ TEST(OrbExtractor, givesTheSameOnEveryThread) {
     }
     for (auto& thread : threads) thread.join();
     for (const auto& result : results) EXPECT_EQ(result.descriptors, expected.descriptors);
+}
+
+TEST(OrbExtractor, dependsOnNothingButTheImage) {
+    cv::Mat image(480, 640, CV_8UC1);
+    cv::RNG(3).fill(image, cv::RNG::UNIFORM, 0, 256);  // corners up to the border
+    FeatureOptions options;
+    options.count = 10000;
+    const OrbExtractor extractor(options);
+    std::vector<OrbFeatures> found(2);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        mallopt(M_PERTURB, i == 0 ? 1 : 0xaa);  // what new memory holds
+        std::thread([&] { found[i] = extractor.extract(image); }).join();
+    }
+    mallopt(M_PERTURB, 0);
+    EXPECT_EQ(found[0].descriptors, found[1].descriptors);
 }
 
 }  // namespace
