@@ -83,7 +83,7 @@ void COrbLoopClosureERD::registerNewEdge(const mrpt::graphs::TNodeID& from,
 }
 
 void COrbLoopClosureERD::getEdgesStats(std::map<std::string, int>* edge_type_to_num) const {
-    (*edge_type_to_num)["lc"] = m_graph->shared->loop_edges;
+    (*edge_type_to_num)["lc"] = static_cast<int>(m_graph->shared->slam->loops().size());
 }
 
 CCeresGSO::CCeresGSO() {
@@ -102,6 +102,7 @@ void CCeresGSO::optimizeGraph() {
     PoseGraph graph = shared.slam->poseGraph();
     shared.times.measure("optimise", [&] { optimizePoseGraph(graph, shared.options.pose_graph); });
     shared.slam->correct(graph.nodes);
+    dropForgottenLoops(*m_graph);
     updateNodes(*m_graph);
 }
 

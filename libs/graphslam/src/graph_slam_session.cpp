@@ -177,10 +177,6 @@ const SE3& GraphSlamSession::T_base_cam() const {
     return impl_->shared().T_base_cam;
 }
 
-int GraphSlamSession::loopEdges() const {
-    return impl_->shared().loop_edges;
-}
-
 std::vector<VisualSlam::StageTime> GraphSlamSession::stageTimes() const {
     auto times = slam().stageTimes();
     const auto own = impl_->shared().times.all();

@@ -1,5 +1,7 @@
 #include "rgbd_graphslam/graphslam/keyframe_graph.h"
 
+#include <algorithm>
+
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
@@ -72,7 +74,6 @@ KeyframeGraph::constraint_t robotEdge(const PoseEdge& edge, const SE3& T_base_ca
 
 KeyframeGraph::constraint_t registered(const PoseEdge& edge, SharedSlam& shared) {
     shared.edges.push_back(edge);
-    shared.loop_edges += edge.kind == EdgeKind::Loop;
     return robotEdge(edge, shared.T_base_cam);
 }
 
@@ -99,6 +100,22 @@ void load(ByteReader& in, KeyframeGraph& graph) {
         insert(getEdge(in, nodes, kind), graph);
     }
     updateNodes(graph);
+}
+
+void dropForgottenLoops(KeyframeGraph& graph) {
+    SharedSlam& shared = *graph.shared;
+    const auto& loops = shared.slam->loops();
+    const auto forgotten = [&](const PoseEdge& edge) {
+        const auto same = [&](const PoseEdge& loop) {
+            return loop.from == edge.from && loop.to == edge.to;
+        };
+        return edge.kind == EdgeKind::Loop && std::none_of(loops.begin(), loops.end(), same);
+    };
+    for (const PoseEdge& edge : shared.edges) {
+        if (forgotten(edge)) graph.edges.erase({edge.from, edge.to});
+    }
+    shared.edges.erase(std::remove_if(shared.edges.begin(), shared.edges.end(), forgotten),
+                       shared.edges.end());
 }
 
 void updateNodes(KeyframeGraph& graph) {

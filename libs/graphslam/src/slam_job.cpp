@@ -340,7 +340,7 @@ void Job::noteKeyframe(int keyframe) {
 }
 
 std::string Job::progressNote() const {
-    const int loops = session_.loopEdges();
+    const std::size_t loops = session_.slam().loops().size();
     return std::to_string(T_previous_keyframe_.size()) + " keyframes" +
            (loops > 0 ? ", " + std::to_string(loops) + " loops" : "");
 }

@@ -46,5 +46,22 @@ TEST(KeyframeGraph, firstRobotPoseIsTheOrigin) {
     EXPECT_LT(toSE3(robotPose(SE3(), T_base_cam)).minus(SE3()).norm(), 1e-12);
 }
 
+TEST(KeyframeGraph, losesTheEdgesOfLoopsThatTheSlamDropped) {
+    KeyframeGraph graph;
+    graph.shared->slam = std::make_unique<VisualSlam>(SlamOptions{}, Camera{});
+    PoseEdge edge = someEdge();
+    const auto insert = [&](int from, int to, EdgeKind kind) {
+        edge.from = from;
+        edge.to = to;
+        edge.kind = kind;
+        graph.insertEdge(from, to, registered(edge, *graph.shared));
+    };
+    for (int i = 0; i < 5; ++i) insert(i, i + 1, EdgeKind::Odometry);
+    insert(0, 4, EdgeKind::Loop);
+    dropForgottenLoops(graph);
+    EXPECT_EQ(graph.edges.size(), 5u);
+    EXPECT_EQ(graph.edges.count({0, 4}), 0u);
+}
+
 }  // namespace
 }  // namespace rgbd_graphslam

@@ -53,7 +53,6 @@ class GraphSlamSession {
     const VisualSlam& slam() const;
     /** Pose of the colour camera's optical frame on the robot's base. */
     const SE3& T_base_cam() const;
-    int loopEdges() const;
     /** Stages of slam() and of the engine. */
     std::vector<VisualSlam::StageTime> stageTimes() const;
 

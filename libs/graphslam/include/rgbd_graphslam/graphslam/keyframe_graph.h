@@ -26,7 +26,6 @@ struct SharedSlam {
     std::optional<int> new_keyframe;
     /** Of the graph, between cameras, in the order in which they came. */
     std::vector<PoseEdge> edges;
-    int loop_edges = 0;
     /** Whether the present step has added loop edges. */
     bool loops_found = false;
     StageTimes times;
@@ -71,6 +70,9 @@ KeyframeGraph::constraint_t registered(const PoseEdge& edge, SharedSlam& shared)
 void save(const KeyframeGraph& graph, ByteWriter& out);
 /** Into a graph without nodes whose SLAM was started. \throws DamagedBytes */
 void load(ByteReader& in, KeyframeGraph& graph);
+
+/** Takes out the edges of loops that the SLAM has dropped as contradicting the rest. */
+void dropForgottenLoops(KeyframeGraph& graph);
 
 /** Moves the nodes to where the SLAM has its keyframes now. */
 void updateNodes(KeyframeGraph& graph);
