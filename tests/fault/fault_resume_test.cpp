@@ -8,6 +8,7 @@
 #include <chrono>
 #include <map>
 #include <random>
+#include <set>
 
 #include "../support/run_program.h"
 #include "../support/textured_room.h"
@@ -34,10 +35,11 @@ using Files = std::map<std::string, std::string>;
 
 /** Without those that tell of times. */
 Files resultsIn(const std::string& folder) {
+    const std::set<std::string> of_times = {"summary.json", "report.html", "frame_times.csv"};
     Files files;
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
-        if (name == "summary.json" || name == "report.html" || !entry.is_regular_file()) continue;
+        if (of_times.count(name) || !entry.is_regular_file()) continue;
         files[name] = readText(entry.path().string());
     }
     return files;
@@ -163,6 +165,8 @@ TEST_F(FaultResume, anInterruptedRunGoesOn) {
 TEST_F(FaultResume, anyNumberOfThreadsGoesOn) {
     signalAtCheckpoint("KILL", arguments("out"));
     EXPECT_EQ(resume(" --threads 1").exit_code, 0);
+    const std::string times = readText(*folder_ / "out/frame_times.csv");
+    EXPECT_EQ(std::count(times.begin(), times.end(), '\n'), 1 + frames);
     Files expected = *finished_, files = resultsIn(*folder_ / "out");
     for (Files* f : {&expected, &files}) {  // tell the settings or their hash
         f->erase("config.ini");

@@ -222,6 +222,11 @@ void Job::save(ByteWriter& out) const {
     for (const SE3& pose : T_previous_keyframe_) encodePose(pose, out);
     out.put(report_.tracking_wall_s);
     out.put(report_.tracking_cpu_s);
+    out.putCount(report_.frame_times.size());
+    for (const FrameTime& time : report_.frame_times) {
+        out.put(time.stamp_s);
+        out.put(time.wall_ms);
+    }
     const auto warnings = allWarnings();
     out.putCount(warnings.size());
     for (const std::string& warning : warnings) out.putText(warning);
@@ -240,6 +245,11 @@ void Job::load(ByteReader& in) {
     for (SE3& pose : T_previous_keyframe_) pose = decodePose(in);
     report_.tracking_wall_s = getFinite(in);
     report_.tracking_cpu_s = getFinite(in);
+    report_.frame_times.resize(in.getCount(2 * sizeof(double)));
+    for (FrameTime& time : report_.frame_times) {
+        time.stamp_s = getFinite(in);
+        time.wall_ms = getFinite(in);
+    }
     earlier_warnings_.resize(in.getCount(sizeof(std::uint32_t)));
     for (std::string& warning : earlier_warnings_) warning = in.getText();
     if (getFlag(in)) {
