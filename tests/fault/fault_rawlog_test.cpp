@@ -8,6 +8,7 @@
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <algorithm>
+#include <cstring>
 #include <functional>
 #include <limits>
 
@@ -266,6 +267,14 @@ TEST_F(FaultRawlog, calibrationThatIsNone) {
     }
     write(film_);
     expectRefused("calibration");
+}
+
+TEST_F(FaultRawlog, flagThatIsNeitherYesNorNo) {
+    for (bool* flag :
+         {&film_[0]->hasIntensityImage, &film_[1]->hasRangeImage, &film_[2]->range_is_depth}) {
+        std::memset(static_cast<void*>(flag), 19, 1);
+    }
+    for (int frame = 0; frame < 3; ++frame) EXPECT_THROW(toRgbdImage(film_[frame]), Error) << frame;
 }
 
 TEST_F(FaultRawlog, depthUnitThatIsNone) {

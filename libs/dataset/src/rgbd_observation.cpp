@@ -21,7 +21,18 @@ constexpr float max_range_m = 10;
                 "import the sequence again with tum2rawlog, or leave this sensor out");
 }
 
+/** MRPT copies the byte of a file into a bool; other than 0 and 1 must not be looked at as one. */
+bool isFlag(const bool& flag) {
+    unsigned char byte = 0;
+    std::memcpy(&byte, &flag, 1);
+    return byte <= 1;
+}
+
 void checkContents(const CObservation3DRangeScan& observation) {
+    if (!isFlag(observation.hasIntensityImage) || !isFlag(observation.hasRangeImage) ||
+        !isFlag(observation.range_is_depth)) {
+        refuse(observation, "damaged: a flag is neither yes nor no");
+    }
     if (!observation.hasIntensityImage) refuse(observation, "no colour image");
     if (!observation.hasRangeImage) refuse(observation, "no depth image");
     if (!observation.range_is_depth) refuse(observation, "ranges along rays instead of depth");

@@ -90,6 +90,8 @@ void LocalMapper::joinWithNeighbours(int id) {
     for (const Covisibility& c : neighbours) joinInto(c.keyframe, map_.keyframe(id).landmarks);
 }
 
+// A copy, since fusing changes the list of the keyframe that it may come from.
+// NOLINTNEXTLINE(performance-unnecessary-value-param)
 void LocalMapper::joinInto(int keyframe_id, std::vector<int> landmarks) {
     const Keyframe& keyframe = map_.keyframe(keyframe_id);
     const Eigen::Vector3d camera_position = keyframe.T_cam_world.inverse().t;

@@ -39,15 +39,15 @@ class LocalMapper {
 
   private:
     void startAdjustment(int keyframe);
-    void createFromDepth(int keyframe);
-    void triangulateWithNeighbours(int keyframe);
-    void joinWithNeighbours(int keyframe);
+    void createFromDepth(int id);
+    void triangulateWithNeighbours(int id);
+    void joinWithNeighbours(int id);
     void join(int landmark, int keyframe, int keypoint);
     void cullLandmarks(int keyframe);
-    void cullKeyframes(int keyframe);
+    void cullKeyframes(int id);
     bool isRedundant(const Landmark& landmark, int keyframe, int octave) const;
     double redundancy(const Keyframe& keyframe) const;
-    MapAdjustment adjustmentAround(int keyframe) const;
+    MapAdjustment adjustmentAround(int id) const;
 
     const SlamOptions& options_;
     const Camera& camera_;
