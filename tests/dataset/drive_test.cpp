@@ -1,7 +1,6 @@
 /** Maps, plans and drives as a user would, and measures the way against what was really there. */
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <ostream>
 #include <string>
 
@@ -19,15 +18,6 @@ std::ostream& operator<<(std::ostream& out, const Drive& drive) {
     return out << drive.scenario;
 }
 
-/** Run once a build folder, too: rgbd-drive is what is tested here. */
-std::string mapOf(const std::string& folder) {
-    const std::string run = folder + "-run";
-    if (std::filesystem::exists(run + "/grid.gridmap.gz")) return run;
-    runOrFail("rgbd-slam",
-              "'" RGBD_SOURCE_DIR "/ini/default.ini' '" + folder + ".rawlog' -o '" + run + "' -q");
-    return run;
-}
-
 double numberAfter(const std::string& name, const std::string& text) {
     const auto place = text.find(name);
     return place == std::string::npos ? -1 : std::stod(text.substr(place + name.size()));
@@ -38,15 +28,17 @@ class DriveThroughMap : public testing::TestWithParam<Drive> {};
 TEST_P(DriveThroughMap, arrivesWithoutTouchingTheTrueSurface) {
     const std::string folder = filmOf(GetParam().scenario, GetParam().film);
     if (HasFatalFailure()) return;
-    const std::string run = mapOf(folder);
+    const TestFolder out;
+    const std::string run = out / "run";
+    runOrFail("rgbd-slam",
+              "'" RGBD_SOURCE_DIR "/ini/default.ini' '" + folder + ".rawlog' -o '" + run + "' -q");
     if (HasFatalFailure()) return;
     for (const char* follow : {"motion", "route"}) {
-        const TestFolder out;
         const ProgramResult drive = runProgram(
             "rgbd-drive", "'" RGBD_SOURCE_DIR "/ini/drive.ini' '" + run + "' " + GetParam().way +
                               " --surface '" + folder + "/surface.ply' --truth '" + folder +
                               "/groundtruth.txt' --set DriveOptions.follow=" + follow + " -o '" +
-                              out / "" + "'");
+                              out / follow + "'");
         EXPECT_EQ(drive.exit_code, 0) << follow << "\n" << drive.out << drive.err;
         EXPECT_NE(drive.out.find("arrived        yes"), std::string::npos) << drive.out;
         EXPECT_GT(numberAfter("driven", drive.out), GetParam().least_path_m) << drive.out;
