@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "keyframe_decision.h"
+#include "keyframe_edges.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/features/frame_builder.h"
 #include "rgbd_graphslam/slam/full_adjuster.h"
@@ -112,6 +113,7 @@ class VisualSlam::Implementation {
           mapper(options, camera, map),
           full_adjuster(options, camera, map),
           closer(options, camera, map),
+          edges(options.sensor, camera, map),
           decision(options.keyframes) {}
 
     void restore(MapSnapshot snapshot, MapUse use);
@@ -131,6 +133,7 @@ class VisualSlam::Implementation {
     LocalMapper mapper;
     FullAdjuster full_adjuster;
     LoopCloser closer;
+    const KeyframeEdges edges;
     WeakTracker weak;
     /** While the map is not seen: follows one frame for as long as it can, so that errors do not
      * add up from frame to frame. */
@@ -436,7 +439,7 @@ TrackedFrame VisualSlam::track(Frame frame) {
 }
 
 PoseEdge VisualSlam::odometryEdge(int keyframe) const {
-    return impl_->closer.odometryEdge(keyframe);
+    return impl_->edges.odometry(keyframe);
 }
 
 std::vector<PoseEdge> VisualSlam::findLoops(int keyframe) {
@@ -450,7 +453,7 @@ std::vector<PoseEdge> VisualSlam::findLoops(int keyframe) {
 }
 
 PoseGraph VisualSlam::poseGraph() const {
-    return impl_->closer.poseGraph();
+    return impl_->edges.graph(impl_->closer.loops());
 }
 
 void VisualSlam::correct(const std::vector<SE3>& T_world_keyframe) {
