@@ -70,7 +70,7 @@ class Bench:
         """Medians over the runs after a warm-up, and the errors of the last run."""
         self.run(sequence, *options)
         runs = [self.run(sequence, *options) for _ in range(self.runs)]
-        figures = {key: statistics.median(run[0][key] for run in runs) for key in runs[0][0]}
+        figures = {key: _median(run[0][key] for run in runs) for key in runs[0][0]}
         figures.update(self._errors(sequence))
         digests = {digest for _, digest, _ in runs}
         figures["same_in_all_runs"] = len(digests) == 1 if len(runs) > 1 else None
@@ -109,13 +109,21 @@ class Bench:
                 for key, figure in json.loads(result.stdout)[0]["figures"].items()}
 
 
+def _median(values):
+    """None where a run has no such figure."""
+    values = list(values)
+    return None if None in values else statistics.median(values)
+
+
 def _figures(summary, cost):
     frames = summary["frames"]
     reading_ms = sum(stage["calls"] * stage["cpu_ms"]["mean"]
                      for name, stage in summary["stages"].items() if name in ("read", "decode"))
     figures = {key: summary[key] for key in
-               ("frames", "tracked", "recovered", "lost", "keyframes", "loops", "path_m",
-                "frames_per_s", "cpu_ms_a_frame")}
+               ("frames", "tracked", "recovered", "lost", "keyframes", "loops", "false_loops",
+                "path_m", "frames_per_s", "cpu_ms_a_frame")}
+    errors_m = [edge[3] for edge in summary["loop_edges"] if edge[3] is not None]
+    figures["worst_loop_m"] = max(errors_m, default=None)
     figures["cpu_ms_without_reading"] = summary["cpu_ms_a_frame"] - reading_ms / frames
     figures["process_cpu_ms"] = 1e3 * cost.cpu_s / frames
     figures["peak_mb"] = cost.peak_mb

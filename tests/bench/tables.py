@@ -31,6 +31,13 @@ def _located(figures):
     return "/".join(_count(figures, key) for key in ("tracked", "recovered", "lost"))
 
 
+def _loops(figures):
+    loops = _count(figures, "loops")
+    known = figures["loops"] and figures["false_loops"] is not None
+    return [f"{loops}, {_count(figures, 'false_loops')} false" if known else loops,
+            number(figures["worst_loop_m"], 3)]
+
+
 def _yes(value):
     if value is None:
         return MISSING
@@ -43,12 +50,12 @@ def _accuracy(figures):
 
 
 def accuracy(results):
-    head = ["sequence", "frames", "tracked/recovered/lost", "keyframes", "loops", "ATE RMSE m",
-            "RPE 1 s m", "RPE 1 s °", "runs same", "1, 2, 4 threads same"]
+    head = ["sequence", "frames", "tracked/recovered/lost", "keyframes", "loops", "worst loop m",
+            "ATE RMSE m", "RPE 1 s m", "RPE 1 s °", "runs same", "1, 2, 4 threads same"]
     rows = []
     for name, figures in results.items():
         rows.append([f"`{name}`", _count(figures, "frames"), _located(figures),
-                     _count(figures, "keyframes"), _count(figures, "loops"), *_accuracy(figures),
+                     _count(figures, "keyframes"), *_loops(figures), *_accuracy(figures),
                      _yes(figures["same_in_all_runs"]), _yes(figures["same_with_threads"])])
     return table(head, rows)
 
@@ -107,13 +114,13 @@ def ablations(by_variant):
 
 def scenarios(results, failures):
     """\\param failures name -> why it never came to a trajectory"""
-    head = ["scenario", "way m", "tracked/recovered/lost", "keyframes", "loops", "ATE RMSE m",
-            "RPE 1 s m", "RPE 1 s °", "tracking ms CPU", "outcome"]
+    head = ["scenario", "way m", "tracked/recovered/lost", "keyframes", "loops", "worst loop m",
+            "ATE RMSE m", "RPE 1 s m", "RPE 1 s °", "tracking ms CPU", "outcome"]
     rows = [[f"`{name}`", number(figures["way_m"], 1), _located(figures),
-             _count(figures, "keyframes"), _count(figures, "loops"), *_accuracy(figures),
+             _count(figures, "keyframes"), *_loops(figures), *_accuracy(figures),
              number(figures["cpu_ms_a_frame"], 1), outcome(figures)]
             for name, figures in results.items()]
-    rows += [[f"`{name}`"] + [MISSING] * 8 + [f"**FAILED**: {why}"]
+    rows += [[f"`{name}`"] + [MISSING] * 9 + [f"**FAILED**: {why}"]
              for name, why in failures.items()]
     return table(head, rows)
 

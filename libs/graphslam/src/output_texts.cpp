@@ -30,12 +30,16 @@ Json stagesJson(const JobReport& report) {
     return stages;
 }
 
+template <class T>
+Json orNull(const std::optional<T>& value) {
+    return value ? Json(*value) : Json(nullptr);
+}
+
 Json ateJson(const JobReport& report) {
     if (!report.ate_rmse_m) return nullptr;
-    return {
-        {"rmse_m", *report.ate_rmse_m},
-        {"pairs", report.ate_pairs},
-        {"fitted_scale", report.ate_fitted_scale ? Json(*report.ate_fitted_scale) : Json(nullptr)}};
+    return {{"rmse_m", *report.ate_rmse_m},
+            {"pairs", report.ate_pairs},
+            {"fitted_scale", orNull(report.ate_fitted_scale)}};
 }
 
 /** In order of the total time they took. */
@@ -50,8 +54,8 @@ std::vector<VisualSlam::StageTime> byCost(std::vector<VisualSlam::StageTime> sta
 
 Json loopEdgesJson(const JobReport& report) {
     Json edges = Json::array();
-    for (const PoseEdge& edge : report.loop_edges) {
-        edges.push_back({edge.from, edge.to, edge.inliers});
+    for (const ReportedLoop& loop : report.loops) {
+        edges.push_back({loop.from, loop.to, loop.inliers, orNull(loop.error_m)});
     }
     return edges;
 }
@@ -124,7 +128,8 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"apart_keyframes", report.apart_keyframes},
         {"culled_keyframes", report.culled_keyframes},
         {"landmarks", report.landmarks},
-        {"loops", report.loop_edges.size()},
+        {"loops", report.loops.size()},
+        {"false_loops", orNull(report.false_loops)},
         {"loop_edges", loopEdgesJson(report)},
         {"path_m", report.path_m},
         {"ate", ateJson(report)},
@@ -147,7 +152,7 @@ std::string resultTable(const SlamJob& job, const JobReport& report) {
         text += formatted("left out      %zu frames out of order\n", report.out_of_order);
     }
     text += formatted("keyframes     %zu\nloops         %zu\npath          %.2f m\n",
-                      report.keyframes, report.loop_edges.size(), report.path_m);
+                      report.keyframes, report.loops.size(), report.path_m);
     if (report.ate_rmse_m) {
         text += formatted("ATE RMSE      %.4f m over %zu poses\n", *report.ate_rmse_m,
                           report.ate_pairs);

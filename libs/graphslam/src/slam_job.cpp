@@ -140,6 +140,7 @@ class Job {
     Trajectory located() const;
     bool apart(int part) const { return part != part_; }
     void evaluate(const Trajectory& estimate);
+    void describeLoops(const Trajectory& truth);
     void collectStages();
 
     MapInputs mapInputs() const;
@@ -372,7 +373,6 @@ void Job::describe() {
     }
     report_.landmarks = slam.landmarks().size();
     for (const PoseEdge& edge : slam.poseGraph().edges) {
-        if (edge.kind == EdgeKind::Loop) report_.loop_edges.push_back(edge);
         if (edge.kind == EdgeKind::Covisibility) report_.covisibility_edges.push_back(edge);
     }
     if (report_.apart > 0) {
@@ -409,12 +409,32 @@ Trajectory Job::located() const {
 void Job::evaluate(const Trajectory& estimate) {
     Trajectory truth = stream_.truth();
     for (StampedPose& pose : truth) pose.T_world_cam = pose.T_world_cam * session_.T_base_cam();
+    describeLoops(truth);
     const auto comparison = compareWithTruth(estimate, truth);
     if (!comparison) return;
     report_.ate_rmse_m = comparison->ate.translation_m.rmse;
     report_.ate_pairs = comparison->ate.pairs.size();
     report_.ate_fitted_scale = comparison->ate.fitted_scale;
     truth_ = comparison->truth;
+}
+
+/** The truth is of this rawlog only, whatever stamps the keyframes of an earlier session have. */
+void Job::describeLoops(const Trajectory& truth) {
+    const std::vector<KeyframeView> keyframes = session_.slam().keyframes();
+    const auto is_false = [](const ReportedLoop& loop) {
+        return loop.error_m && *loop.error_m > false_loop_m;
+    };
+    for (const PoseEdge& edge : session_.slam().poseGraph().edges) {
+        if (edge.kind != EdgeKind::Loop) continue;
+        ReportedLoop loop{edge.from, edge.to, edge.inliers, std::nullopt};
+        if (!job_.localises() && std::min(edge.from, edge.to) >= first_keyframe_) {
+            loop.error_m =
+                edgeErrorM(edge, keyframes[edge.from].stamp_s, keyframes[edge.to].stamp_s, truth);
+        }
+        report_.loops.push_back(loop);
+    }
+    if (truth.empty() || job_.localises()) return;
+    report_.false_loops = std::count_if(report_.loops.begin(), report_.loops.end(), is_false);
 }
 
 void Job::collectStages() {
@@ -432,8 +452,8 @@ MapInputs Job::mapInputs() const {
     for (const KeyframeView& keyframe : session_.slam().keyframes()) {
         inputs.keyframes.push_back({keyframe.stamp_s, keyframe.T_world_cam});
     }
-    for (const PoseEdge& edge : report_.loop_edges) {
-        inputs.loops.push_back({edge.from, edge.to, edge.inliers});
+    for (const ReportedLoop& loop : report_.loops) {
+        inputs.loops.push_back({loop.from, loop.to, loop.inliers});
     }
     if (!inputs.loops.empty()) {
         inputs.keyframes_before_loops = chained(inputs.keyframes, T_previous_keyframe_);

@@ -37,8 +37,7 @@ std::string findRawlog(const nlohmann::json& summary, const fs::path& folder) {
 std::vector<MapLoopEdge> loopsOf(const nlohmann::json& summary) {
     std::vector<MapLoopEdge> loops;
     for (const auto& edge : summary.value("loop_edges", nlohmann::json::array())) {
-        const auto numbers = edge.get<std::vector<int>>();
-        if (numbers.size() == 3) loops.push_back({numbers[0], numbers[1], numbers[2]});
+        loops.push_back({edge.at(0).get<int>(), edge.at(1).get<int>(), edge.at(2).get<int>()});
     }
     return loops;
 }

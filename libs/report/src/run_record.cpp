@@ -91,7 +91,7 @@ void readFigures(const Json& summary, RunRecord& run) {
     run.maps_wall_s = summary.at("maps_wall_s");
     run.peak_memory_mb = summary.at("peak_memory_mb");
     run.stages = stagesOf(summary.at("stages"));
-    for (const Json& edge : summary.at("loop_edges")) {
+    for (const Json& edge : summary.at("loop_edges")) {  // with or without its error behind
         run.loops.push_back({edge.at(0), edge.at(1), edge.at(2)});
     }
 }

@@ -22,7 +22,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double turn_rad = 0.02;
-constexpr int frames = 30;
+constexpr int frames = 30, whole_round = 330;
 
 class JobOnARawlog : public testing::Test {
   protected:
@@ -35,15 +35,17 @@ class JobOnARawlog : public testing::Test {
     }
     ~JobOnARawlog() override { setVerbosity(Verbosity::Normal); }
 
-    /** With ground truth. \param first frame of the round trip that the film begins with */
-    void write(const std::vector<mrpt::obs::CObservation3DRangeScan::Ptr>& film,
-               int first = 0) const {
+    /** With ground truth.
+     *  \param first frame of the round trip that the film begins with
+     *  \param truth_turn_rad in each frame */
+    void write(const std::vector<mrpt::obs::CObservation3DRangeScan::Ptr>& film, int first = 0,
+               double truth_turn_rad = turn_rad) const {
         writeRawlog(job_.rawlog, RawlogStorage::Embedded, [&](RawlogWriter& writer) {
             for (std::size_t i = 0; i < film.size(); ++i) {
                 mrpt::obs::CObservationRobotPose truth;
                 truth.sensorLabel = ground_truth_label;
                 truth.timestamp = film[i]->timestamp;
-                truth.pose.mean = toCPose3D(roundTrip(first + static_cast<int>(i), turn_rad));
+                truth.pose.mean = toCPose3D(roundTrip(first + static_cast<int>(i), truth_turn_rad));
                 writer.write(truth);
                 writer.write(*film[i]);
             }
@@ -105,6 +107,24 @@ TEST_F(JobOnARawlog, writesAFolderThatDescribesItself) {
     EXPECT_EQ(summary["ate"]["rmse_m"], *report.ate_rmse_m);
     EXPECT_EQ(summary["stages"]["extract"]["calls"], frames);
     EXPECT_TRUE(fs::exists(job_.out_folder + "/graph.graph"));
+}
+
+TEST_F(JobOnARawlog, loopsAreJudgedByTheTruth) {
+    const auto film = filmRoundTrip(whole_round, turn_rad);
+    write(film);
+    const JobReport right = runSlamJob(job_);
+    ASSERT_FALSE(right.loops.empty());
+    for (const ReportedLoop& loop : right.loops) EXPECT_LT(loop.error_m.value(), 0.05);
+    EXPECT_EQ(right.false_loops, 0u);
+    const auto summary = nlohmann::json::parse(output("summary.json"));
+    EXPECT_EQ(summary["loop_edges"][0][3], *right.loops[0].error_m);
+    EXPECT_EQ(readRunFolder(job_.out_folder, "").loops.size(), right.loops.size());
+
+    write(film, 0, turn_rad / 2);
+    const JobReport wrong = runSlamJob(job_);
+    EXPECT_EQ(wrong.false_loops, wrong.loops.size());
+    EXPECT_GT(wrong.loops[0].error_m.value(), 0.9);  // the truth ends on the other side
+    EXPECT_EQ(nlohmann::json::parse(output("summary.json"))["false_loops"], wrong.loops.size());
 }
 
 TEST_F(JobOnARawlog, truthIsWrittenWhereThePathLies) {
@@ -276,6 +296,7 @@ TEST_F(JobOnARawlog, laterRunIsLocalisedInTheMap) {
     EXPECT_FALSE(fs::exists(job_.out_folder + "/map.sparse"));
     const auto summary = nlohmann::json::parse(output("summary.json"));
     EXPECT_EQ(summary["map"]["use"], "localise");
+    EXPECT_TRUE(summary["false_loops"].is_null());
 }
 
 TEST_F(JobOnARawlog, laterRunExtendsTheMap) {

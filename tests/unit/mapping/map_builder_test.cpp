@@ -293,6 +293,16 @@ TEST_F(RunFolder, readsBackWhatMapsAreMadeOf) {
     EXPECT_EQ(writeMaps(read, MapOptions(), path("out")).keyframes, 8u);
 }
 
+TEST_F(RunFolder, loopsMayCarryTheirError) {
+    writeTextAtomically(
+        path("summary.json"),
+        R"({"rawlog": "walk.rawlog", "loop_edges": [[0, 7, 40, 0.01], [1, 6, 30, null]]})");
+    const MapInputs read = readRunFolder(folder_.string(), "");
+    ASSERT_EQ(read.loops.size(), 2u);
+    EXPECT_EQ(read.loops[0].inliers, 40);
+    EXPECT_EQ(read.loops[1].from, 1);
+}
+
 TEST_F(RunFolder, optionsAreReadPastOtherSections) {
     EXPECT_EQ(readRunOptions(folder_.string()).octree_resolution_m, 0.05);
     writeTextAtomically(
@@ -315,6 +325,9 @@ TEST_F(RunFolder, whatIsMissingOrBrokenIsNamed) {
     writeTextAtomically(path("summary.json"), R"({"rawlog": "walk.ra)");
     EXPECT_THAT(problem(), testing::HasSubstr("summary.json"));
     writeTextAtomically(path("summary.json"), R"({"rawlog": "walk.rawlog", "loop_edges": "none"})");
+    EXPECT_THAT(problem(), testing::HasSubstr("loop_edges"));
+    writeTextAtomically(path("summary.json"),
+                        R"({"rawlog": "walk.rawlog", "loop_edges": [[0, 7]]})");
     EXPECT_THAT(problem(), testing::HasSubstr("loop_edges"));
     fs::remove(path("keyframes.txt"));
     EXPECT_THAT(problem(), testing::HasSubstr("keyframes.txt"));

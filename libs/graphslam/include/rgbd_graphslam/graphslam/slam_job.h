@@ -29,6 +29,18 @@ struct FrameTime {
     double stamp_s = 0, wall_ms = 0;
 };
 
+/** A loop edge with a larger error joins places that are not the same. */
+inline constexpr double false_loop_m = 0.2;
+
+/** A loop edge of the graph, between two keyframes. */
+struct ReportedLoop {
+    int from = 0, to = 0;
+    int inliers = 0;
+    /** How far the measured place of one camera in the other is from the true one; nothing where
+     * the truth of either is not known. */
+    std::optional<double> error_m;
+};
+
 /** What came of a job. */
 struct JobReport {
     std::size_t frames = 0, tracked = 0, recovered = 0, weak = 0, lost = 0;
@@ -37,7 +49,10 @@ struct JobReport {
     /** Frames left out because their stamp was not later than the one before. */
     std::size_t out_of_order = 0;
     std::size_t keyframes = 0, culled_keyframes = 0, landmarks = 0;
-    std::vector<PoseEdge> loop_edges, covisibility_edges;
+    std::vector<ReportedLoop> loops;
+    /** Of the loops whose error is known, those beyond false_loop_m; nothing without truth. */
+    std::optional<std::size_t> false_loops;
+    std::vector<PoseEdge> covisibility_edges;
     /** In such parts. */
     std::vector<int> apart_keyframes;
     /** Of a map that was extended. */

@@ -7,10 +7,10 @@
 namespace rgbd_graphslam {
 
 /** Reads keyframes.txt, trajectory.txt, and from summary.json the rawlog's path ("rawlog") and the
- *  loops ("loop_edges": [[from, to, inliers], ...], optional) and "earlier_sessions" ([{"rawlog",
- * "keyframes"}, ...], optional); keyframes_before_loops.txt when it is there. \param rawlog takes
- * the place of the one in summary.json unless empty \throws Error when a file is missing or makes
- * no sense */
+ *  loops ("loop_edges": [[from, to, inliers, ...], ...], optional; what follows is left alone) and
+ *  "earlier_sessions" ([{"rawlog", "keyframes"}, ...], optional); keyframes_before_loops.txt when
+ * it is there. \param rawlog takes the place of the one in summary.json unless empty \throws Error
+ * when a file is missing or makes no sense */
 MapInputs readRunFolder(const std::string& folder, const std::string& rawlog);
 
 /** Section MapOptions of the folder's config.ini; defaults when there is no such file. Other
