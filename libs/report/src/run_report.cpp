@@ -30,14 +30,37 @@ std::string figure(const std::string& picture, const std::string& caption,
            htmlEscaped(caption) + "</figcaption></figure>\n";
 }
 
-ChartLine pathOf(const std::string& name, const std::string& css_class, const Trajectory& poses) {
-    ChartLine line{name, css_class, {}};
+/** Every n-th pose, where there are more than a chart can show. */
+Trajectory thinned(const Trajectory& poses) {
     constexpr std::size_t most = 3000;
     const std::size_t step = poses.size() / most + 1;
-    for (std::size_t i = 0; i < poses.size(); i += step) {
-        line.points.push_back(poses[i].T_world_cam.t.head<2>());
+    Trajectory some;
+    for (std::size_t i = 0; i < poses.size(); i += step) some.push_back(poses[i]);
+    return some;
+}
+
+ChartLine pathOf(const std::string& name, const std::string& css_class, const Trajectory& poses) {
+    ChartLine line{name, css_class, {}};
+    for (const StampedPose& pose : thinned(poses)) {
+        line.points.push_back(pose.T_world_cam.t.head<2>());
     }
     return line;
+}
+
+/** Cuts a line wherever a lost frame lies between two of its points, so that nothing is drawn that
+ *  nobody saw. Only the first piece keeps the name.
+ *  \param seconds of each point, since the first frame */
+std::vector<ChartLine> withoutGaps(const ChartLine& line, const std::vector<double>& seconds,
+                                   const std::vector<LostSpan>& lost) {
+    std::vector<ChartLine> pieces{{line.name, line.css_class, {}}};
+    auto gap = lost.begin();
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+        bool cut = false;
+        for (; gap != lost.end() && gap->first_s < seconds[i]; ++gap) cut = true;
+        if (cut && i > 0) pieces.push_back({"", line.css_class, {}});
+        pieces.back().points.push_back(line.points[i]);
+    }
+    return pieces;
 }
 
 std::optional<AteResult> ateOf(const RunRecord& run) {
@@ -123,8 +146,21 @@ class Page {
     }
 
     std::string path() const {
-        return planChart({pathOf("truth", "truth", run_.truth),
-                          pathOf("estimate", "estimate", run_.trajectory)});
+        const auto lost = lostSpans(run_.frames);
+        std::vector<ChartLine> lines;
+        const auto add = [&](const char* name, const char* css_class, const Trajectory& poses) {
+            ChartLine line{name, css_class, {}};
+            std::vector<double> seconds;
+            for (const StampedPose& pose : thinned(poses)) {
+                line.points.push_back(pose.T_world_cam.t.head<2>());
+                seconds.push_back(pose.stamp_s - run_.start_s);
+            }
+            const auto pieces = withoutGaps(line, seconds, lost);
+            lines.insert(lines.end(), pieces.begin(), pieces.end());
+        };
+        add("truth", "truth", run_.truth);
+        add("estimate", "estimate", run_.trajectory);
+        return planChart(lines);
     }
 
     std::string loops() const {
@@ -145,10 +181,13 @@ class Page {
     std::string errors() const {
         if (!ate_) return {};
         ChartLine line{"", "value", {}};
+        std::vector<double> seconds;
         for (const AtePair& pair : ate_->pairs) {
-            line.points.emplace_back(pair.stamp_s - run_.start_s, 1e3 * pair.error_m().norm());
+            seconds.push_back(pair.stamp_s - run_.start_s);
+            line.points.emplace_back(seconds.back(), 1e3 * pair.error_m().norm());
         }
-        return timeChart({line}, "distance to the true place, mm");
+        return timeChart(withoutGaps(line, seconds, lostSpans(run_.frames)),
+                         "distance to the true place, mm");
     }
 
     std::string landmarks() const {

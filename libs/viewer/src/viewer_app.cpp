@@ -1,6 +1,7 @@
 #include "rgbd_graphslam/viewer/viewer_app.h"
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <cstdlib>
 #include <ctime>
@@ -48,8 +49,10 @@ nanogui::ref<ViewerWindow> makeWindow(const ViewerSettings& settings, const std:
 void stepBack() {
     constexpr int lowest_priority = 19;
     ::setpriority(PRIO_PROCESS, 0, lowest_priority);
-    // Linux weighs whole sessions against each other first, and this process may have its own.
-    std::ofstream("/proc/self/autogroup") << lowest_priority;
+    // Linux weighs whole sessions against each other first. One that is shared with rgbd-slam must
+    // not be slowed, so this needs a session of its own.
+    if (::getsid(0) == ::getpid() || ::setsid() > 0)
+        std::ofstream("/proc/self/autogroup") << lowest_priority;
     ::setenv("LP_NUM_THREADS", "1", 0);  // of Mesa's software renderer
 }
 

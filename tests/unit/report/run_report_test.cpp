@@ -42,6 +42,19 @@ TEST(RunReport, leavesOutWhatThereIsNot) {
     }
 }
 
+TEST(RunReport, drawsNothingAcrossLostFrames) {
+    const std::regex estimate("<polyline class=\"estimate\"");
+    const auto pieces = [&](const MadeRun& run) {
+        const std::string page = reportOf(run);
+        return std::distance(std::sregex_iterator(page.begin(), page.end(), estimate), {});
+    };
+    MadeRun run;
+    EXPECT_EQ(pieces(run), 1);
+    run.first_lost = 20;
+    run.end_lost = 35;
+    EXPECT_EQ(pieces(run), 2);
+}
+
 TEST(RunReport, needsNoOtherFile) {
     const std::string page = reportOf({});
     const std::regex reference("(src|href|url)\\s*[=(]\\s*\"?([^\"> ]{0,5})");
