@@ -24,6 +24,11 @@ double medianDepth(const Frame& frame) {
 
 }  // namespace
 
+int keypointsWithDepth(const Frame& frame) {
+    return static_cast<int>(std::count_if(frame.keypoints.begin(), frame.keypoints.end(),
+                                          [](const Keypoint& k) { return k.depth_m > 0; }));
+}
+
 void KeyframeDecision::reset(const Keyframe& keyframe) {
     keyframe_ = keyframe.id;
     median_depth_m_ = medianDepth(keyframe.frame);

@@ -4,6 +4,9 @@
 
 namespace rgbd_graphslam {
 
+/** Number of keypoints that a keyframe makes landmarks of at once. */
+int keypointsWithDepth(const Frame& frame);
+
 /** Relative motion, share of landmarks still tracked, and a minimum of visual change, after the
  *  criteria that RGB-D odometry compares (e.g. Kerl, Sturm and Cremers, IROS 2013; Mur-Artal and
  *  Tardos, T-RO 2017). */

@@ -1,0 +1,85 @@
+#include "kept_frames.h"
+
+#include <algorithm>
+#include <string>
+
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/slam/map_encoding.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr std::size_t record_bytes = sizeof(double) + 1 + 3 * 4 + pose_bytes;
+
+void put(const KeptFrame& record, ByteWriter& out) {
+    out.put(record.stamp_s);
+    out.put(static_cast<std::uint8_t>(record.origin));
+    out.put<std::int32_t>(record.inliers);
+    out.putCount(record.reference_keyframe);
+    encodePose(record.T_cam_reference, out);
+    out.put<std::int32_t>(record.keyframe.value_or(-1));
+}
+
+KeptFrame getRecord(ByteReader& in, std::size_t keyframes) {
+    KeptFrame record;
+    record.stamp_s = getFinite(in);
+    const auto origin = in.get<std::uint8_t>();
+    if (origin > static_cast<std::uint8_t>(FrameOrigin::Lost))
+        throw DamagedBytes("a frame of no kind");
+    record.origin = static_cast<FrameOrigin>(origin);
+    record.inliers = in.get<std::int32_t>();
+    record.reference_keyframe = getIndex(in, std::max<std::size_t>(1, keyframes), "keyframe");
+    record.T_cam_reference = decodePose(in);
+    const auto keyframe = in.get<std::int32_t>();
+    if (keyframe >= 0) record.keyframe = keyframe;
+    return record;
+}
+
+}  // namespace
+
+SE3 KeptFrame::T_cam_world(const SlamMap& map) const {
+    return T_cam_reference * map.T_cam_world(reference_keyframe);
+}
+
+TrackedFrame KeptFrame::view(const SlamMap& map) const {
+    TrackedFrame frame;
+    frame.stamp_s = stamp_s;
+    frame.origin = origin;
+    frame.inliers = inliers;
+    frame.reference_keyframe = reference_keyframe;
+    frame.keyframe = keyframe;
+    frame.T_reference_cam = T_cam_reference.inverse();
+    if (map.keyframes().empty()) return frame;
+    frame.part = map.keyframe(reference_keyframe).part;
+    frame.T_world_cam = T_cam_world(map).inverse();
+    return frame;
+}
+
+void KeptFrames::requireLater(double stamp_s) const {
+    if (records_.empty() || !(stamp_s <= records_.back().stamp_s)) return;
+    throw Error("frame at " + std::to_string(stamp_s) + " s is not later than the last, " +
+                    std::to_string(records_.back().stamp_s) + " s",
+                "leave it out or sort the frames");
+}
+
+SE3 KeptFrames::lastPose(const SlamMap& map) const {
+    return records_.empty() ? map.T_cam_world(0) : records_.back().T_cam_world(map);
+}
+
+std::vector<TrackedFrame> KeptFrames::views(const SlamMap& map) const {
+    std::vector<TrackedFrame> views;
+    for (const KeptFrame& record : records_) views.push_back(record.view(map));
+    return views;
+}
+
+void KeptFrames::save(ByteWriter& out) const {
+    out.putCount(records_.size());
+    for (const KeptFrame& record : records_) put(record, out);
+}
+
+void KeptFrames::load(ByteReader& in, std::size_t keyframes) {
+    records_.resize(in.getCount(record_bytes));
+    for (KeptFrame& record : records_) record = getRecord(in, keyframes);
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,48 @@
+/** Every frame of a run. */
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "rgbd_graphslam/slam/slam_map.h"
+#include "rgbd_graphslam/slam/visual_slam.h"
+
+namespace rgbd_graphslam {
+
+/** A frame as it is kept: tied to a keyframe, so that it moves with the map. */
+struct KeptFrame {
+    double stamp_s = 0;
+    FrameOrigin origin = FrameOrigin::Lost;
+    int inliers = 0;
+    int reference_keyframe = 0;
+    SE3 T_cam_reference;
+    std::optional<int> keyframe;
+
+    /** The reference keyframe must be in the map. */
+    SE3 T_cam_world(const SlamMap& map) const;
+    /** As others see it, where the map says it is now. */
+    TrackedFrame view(const SlamMap& map) const;
+};
+
+/** In order of time. */
+class KeptFrames {
+  public:
+    /** \throws Error when a frame is not later than the last one */
+    void requireLater(double stamp_s) const;
+    void add(const KeptFrame& record) { records_.push_back(record); }
+
+    /** 0 before any frame. */
+    int lastReference() const { return records_.empty() ? 0 : records_.back().reference_keyframe; }
+    /** T_cam_world of the last frame, or where it was known last; the map must not be empty. */
+    SE3 lastPose(const SlamMap& map) const;
+    std::vector<TrackedFrame> views(const SlamMap& map) const;
+
+    void save(ByteWriter& out) const;
+    /** \param keyframes there are
+     *  \throws DamagedBytes */
+    void load(ByteReader& in, std::size_t keyframes);
+
+  private:
+    std::vector<KeptFrame> records_;
+};
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,209 @@
+#include "visual_slam_implementation.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "map_fit.h"
+#include "rgbd_graphslam/slam/map_encoding.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr int fewest_first_landmarks = 50;
+
+}  // namespace
+
+void VisualSlam::Implementation::restore(MapSnapshot snapshot, MapUse use) {
+    requireFits(snapshot, options.features, camera, use);
+    map.restore(std::move(snapshot.keyframes), std::move(snapshot.landmarks));
+    times.measure("place-index", [&] { closer.restore(std::move(snapshot.loops)); });
+    decision.reset(map.keyframes().back());
+    frozen = use == MapUse::Localise;
+    link = Link::None;
+}
+
+void VisualSlam::Implementation::save(ByteWriter& out) const {
+    map.save(out);
+    tracker.save(out);
+    mapper.save(out);
+    full_adjuster.save(out);
+    closer.save(out);
+    weak_motion.save(out);
+    decision.save(out);
+    records.save(out);
+    for (const int number : {frames_since_keyframe, frames_since_loop}) {
+        out.put<std::int32_t>(number);
+    }
+    for (const bool flag : {frozen, placed}) putFlag(flag, out);
+    put(link, out);
+}
+
+void VisualSlam::Implementation::load(ByteReader& in) {
+    map.load(in, camera);
+    tracker.load(in);
+    mapper.load(in);
+    full_adjuster.load(in);
+    closer.load(in);
+    weak_motion.load(in);
+    decision.load(in, map.keyframes().size());
+    records.load(in, map.keyframes().size());
+    for (int* number : {&frames_since_keyframe, &frames_since_loop}) {
+        *number = in.get<std::int32_t>();
+    }
+    for (bool* flag : {&frozen, &placed}) *flag = getFlag(in);
+    link = getLink(in);
+}
+
+TrackedFrame VisualSlam::Implementation::track(Frame frame) {
+    records.requireLater(frame.stamp_s);
+    ++frames_since_keyframe;
+    ++frames_since_loop;
+    if (mapper.pending() && frames_since_keyframe >= options.mapper.hand_over_frames) handOver();
+    if (frames_since_loop == options.mapper.loop_hand_over_frames) handOverAll();
+    KeptFrame record;
+    record.stamp_s = frame.stamp_s;
+    if (map.keyframes().empty()) {
+        start(std::move(frame), record);
+    } else {
+        auto located = locate(frame, record);
+        if (located) {
+            keep(std::move(frame), std::move(*located), record);
+        } else {
+            stray(std::move(frame), record);
+        }
+    }
+    records.add(record);
+    return record.view(map);
+}
+
+/** The first frame with enough depth becomes the origin of the world. */
+void VisualSlam::Implementation::start(Frame frame, KeptFrame& record) {
+    if (keypointsWithDepth(frame) < fewest_first_landmarks) return;
+    beginAnew(std::move(frame), record);
+}
+
+std::optional<LocatedFrame> VisualSlam::Implementation::locate(const Frame& frame,
+                                                               KeptFrame& record) {
+    std::optional<LocatedFrame> located;
+    times.measure("track", [&] { located = tracker.track(frame); });
+    record.origin = FrameOrigin::Tracked;
+    if (located) return located;
+    handOver();
+    times.measure("relocalise", [&] { located = closer.relocalise(frame, tracker); });
+    record.origin = FrameOrigin::Recovered;
+    if (!located) return located;
+    tracker.forget();
+    link = Link::None;
+    return located;
+}
+
+void VisualSlam::Implementation::keep(Frame frame, LocatedFrame located, KeptFrame& record) {
+    weak_motion.restart(frame,
+                        placed ? records.lastPose(map) * located.T_cam_world.inverse() : SE3());
+    placed = true;
+    int reference = map.observers(located.landmarks).front().keyframe;
+    const bool proves_a_place = record.origin == FrameOrigin::Recovered;
+    if (!frozen && (decision.wants(map, located, frames_since_keyframe) || proves_a_place)) {
+        handOver();
+        reference = insertKeyframe(frame, located, map.keyframe(reference).part);
+        record.keyframe = reference;
+        located.landmarks = map.keyframe(reference).landmarks;
+    }
+    record.inliers = located.inliers;
+    record.reference_keyframe = reference;
+    record.T_cam_reference = located.T_cam_world * map.T_cam_world(reference).inverse();
+    tracker.setLast(std::move(frame), std::move(located), reference, true);
+}
+
+/** The map is not seen: the frame is tied to the last one, begins anew, or is lost. */
+void VisualSlam::Implementation::stray(Frame frame, KeptFrame& record) {
+    std::optional<SE3> T_last_cam;
+    if (placed && options.recovery.weak_motion) {
+        times.measure("weak-motion",
+                      [&] { T_last_cam = weak_motion.follow(frame, records.lastPose(map)); });
+    }
+    record.origin = T_last_cam ? FrameOrigin::Weak : FrameOrigin::Lost;
+    if (T_last_cam && link == Link::Tracked) link = Link::Weak;
+    SE3 T_cam_world = T_last_cam.value_or(SE3()).inverse() * records.lastPose(map);
+    // Inverses that are transposes double the rounding error of a chain with each link.
+    T_cam_world.R = orthonormalised(T_cam_world.R);
+    record.reference_keyframe = records.lastReference();
+    record.T_cam_reference = T_cam_world * map.T_cam_world(record.reference_keyframe).inverse();
+    if (!frozen && weak_motion.shouldBeginAnew(frame, T_last_cam.has_value()))
+        return beginAnew(std::move(frame), record);
+    if (!T_last_cam) return tracker.forget();
+    LocatedFrame located{T_cam_world, std::vector<int>(frame.keypoints.size(), no_landmark), 0};
+    tracker.setLast(std::move(frame), std::move(located), record.reference_keyframe, true);
+}
+
+/** A keyframe that shares nothing with those before: where weak motion says it is, or in a part of
+ *  its own. */
+void VisualSlam::Implementation::beginAnew(Frame frame, KeptFrame& record) {
+    handOver();
+    const bool tied = record.origin == FrameOrigin::Weak;
+    link = tied ? Link::Weak : Link::None;
+    const int new_part = static_cast<int>(map.keyframes().size());
+    LocatedFrame located;
+    located.landmarks.assign(frame.keypoints.size(), no_landmark);
+    if (!map.keyframes().empty()) located.T_cam_world = record.T_cam_world(map);
+    const int id = insertKeyframe(frame, located,
+                                  tied ? map.keyframe(record.reference_keyframe).part : new_part);
+    located.landmarks = map.keyframe(id).landmarks;
+    if (!tied) record.origin = FrameOrigin::Tracked;
+    record.keyframe = record.reference_keyframe = id;
+    record.T_cam_reference = SE3();
+    record.inliers =
+        static_cast<int>(std::count_if(located.landmarks.begin(), located.landmarks.end(),
+                                       [](int l) { return l != no_landmark; }));
+    placed = true;
+    weak_motion.restart(frame, SE3());
+    tracker.setLast(std::move(frame), std::move(located), id, tied);
+}
+
+void VisualSlam::Implementation::join(const PoseEdge& loop) {
+    const int from = map.keyframe(loop.from).part, to = map.keyframe(loop.to).part;
+    if (from == to) return;
+    handOver();
+    const SE3 T_world_to = map.T_cam_world(loop.from).inverse() * loop.T_from_to;
+    const SE3 motion = T_world_to * map.T_cam_world(loop.to);
+    if (to > from) {
+        map.joinPart(to, from, motion);
+    } else {
+        map.joinPart(from, to, motion.inverse());
+    }
+}
+
+int VisualSlam::Implementation::insertKeyframe(const Frame& frame, const LocatedFrame& located,
+                                               int part) {
+    int id = 0;
+    times.measure("map", [&] {
+        id = map.addKeyframe(frame, located.T_cam_world, part, link);
+        for (std::size_t i = 0; i < located.landmarks.size(); ++i) {
+            if (located.landmarks[i] == no_landmark) continue;
+            map.addObservation(located.landmarks[i], id, static_cast<int>(i));
+        }
+        mapper.insert(id);
+    });
+    decision.reset(map.keyframe(id));
+    frames_since_keyframe = 0;
+    link = Link::Tracked;
+    return id;
+}
+
+void VisualSlam::Implementation::handOver() {
+    if (!mapper.pending()) return;
+    double adjustment_ms = 0;
+    times.measure("hand-over", [&] { adjustment_ms = mapper.handOver(); });
+    times.add("local-adjustment", adjustment_ms, adjustment_ms);
+}
+
+void VisualSlam::Implementation::handOverAll() {
+    handOver();
+    if (!full_adjuster.pending()) return;
+    double adjustment_ms = 0;
+    times.measure("hand-over", [&] { adjustment_ms = full_adjuster.handOver(); });
+    times.add("loop-adjustment", adjustment_ms, adjustment_ms);
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,81 @@
+/** The state of a VisualSlam and what it does with a frame. */
+#pragma once
+#include <optional>
+
+#include "kept_frames.h"
+#include "keyframe_decision.h"
+#include "keyframe_edges.h"
+#include "rgbd_graphslam/features/frame_builder.h"
+#include "rgbd_graphslam/slam/full_adjuster.h"
+#include "rgbd_graphslam/slam/local_mapper.h"
+#include "rgbd_graphslam/slam/loop_closer.h"
+#include "rgbd_graphslam/slam/stage_times.h"
+#include "rgbd_graphslam/slam/tracker.h"
+#include "rgbd_graphslam/slam/visual_slam.h"
+#include "weak_motion.h"
+
+namespace rgbd_graphslam {
+
+/** Decides for each frame whether the map shows where it is, takes it in, or goes on without. */
+class VisualSlam::Implementation {
+  public:
+    Implementation(const SlamOptions& slam_options, const Camera& slam_camera)
+        : options(slam_options),
+          camera(slam_camera),
+          builder(options.features, camera),
+          map(options.features.scale_factor, options.features.levels),
+          tracker(options, camera, map),
+          mapper(options, camera, map),
+          full_adjuster(options, camera, map),
+          closer(options, camera, map),
+          edges(options.sensor, camera, map),
+          weak_motion(options.recovery, tracker),
+          decision(options.keyframes) {}
+
+    /** Starts from a map. \throws Error when it does not fit the options or the camera */
+    void restore(MapSnapshot snapshot, MapUse use);
+    /** See VisualSlam. */
+    void save(ByteWriter& out) const;
+    /** See VisualSlam. \throws DamagedBytes */
+    void load(ByteReader& in);
+    /** \throws Error when the frame is not later than the last one */
+    TrackedFrame track(Frame frame);
+    /** Writes the local adjustment into the map, if one is under way. */
+    void handOver();
+    /** The adjustment of everything as well. */
+    void handOverAll();
+    /** Brings two parts of the map together where a loop says. */
+    void join(const PoseEdge& loop);
+
+    const SlamOptions options;
+    const Camera camera;
+    const FrameBuilder builder;
+    SlamMap map;
+    Tracker tracker;
+    LocalMapper mapper;
+    FullAdjuster full_adjuster;
+    LoopCloser closer;
+    const KeyframeEdges edges;
+    WeakMotion weak_motion;
+    KeyframeDecision decision;
+    KeptFrames records;
+    int frames_since_keyframe = 0;
+    int frames_since_loop = 0;
+    /** The map may not change. */
+    bool frozen = false;
+    /** Of the next keyframe to the last one. */
+    Link link = Link::Tracked;
+    /** Whether any frame of this run has been located. */
+    bool placed = false;
+    mutable StageTimes times;
+
+  private:
+    void start(Frame frame, KeptFrame& record);
+    std::optional<LocatedFrame> locate(const Frame& frame, KeptFrame& record);
+    void keep(Frame frame, LocatedFrame located, KeptFrame& record);
+    void stray(Frame frame, KeptFrame& record);
+    void beginAnew(Frame frame, KeptFrame& record);
+    int insertKeyframe(const Frame& frame, const LocatedFrame& located, int part);
+};
+
+}  // namespace rgbd_graphslam
