@@ -7,6 +7,9 @@
 
 namespace rgbd_graphslam {
 
+/** Of the file in a run's output folder. */
+inline constexpr const char* sparse_map_name = "map.sparse";
+
 /** A rawlog that keyframes of a map come from. */
 struct MapSession {
     std::string rawlog;  // absolute path

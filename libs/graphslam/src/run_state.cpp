@@ -1,0 +1,66 @@
+#include "run_state.h"
+
+#include <filesystem>
+
+#include "rgbd_graphslam/dataset/mrpt_conversions.h"
+#include "rgbd_graphslam/dataset/rgbd_observation.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+GraphSlamSession makeSession(const SlamJob& job, const FrameStream& stream,
+                             std::optional<SparseMap>& start) {
+    if (!start) return {job.options.slam, stream.firstFrame()};
+    return {job.options.slam, stream.firstFrame(), std::move(start->snapshot), job.map_use};
+}
+
+}  // namespace
+
+RunState::RunState(const SlamJob& slam_job, std::optional<SparseMap> start_map)
+    : job(slam_job),
+      start(std::move(start_map)),
+      stream(job.rawlog, job.options.run),
+      session(makeSession(job, stream, start)),
+      level(job.options.maps) {
+    if (!start || job.localises()) return;
+    for (const KeyframeView& keyframe : session.slam().keyframes()) noteKeyframe(keyframe.id);
+    first_keyframe = static_cast<int>(T_previous_keyframe.size());
+}
+
+void RunState::noteKeyframe(int keyframe) {
+    T_previous_keyframe.push_back(keyframe > 0 ? session.slam().odometryEdge(keyframe).T_from_to
+                                               : SE3());
+}
+
+void RunState::keepPictures(int keyframe,
+                            const mrpt::obs::CObservation3DRangeScan::Ptr& observation) {
+    const RgbdImage image = toRgbdImage(observation);
+    keyframe_sheet.add(keyframe, *last_stamp_s - *first_stamp_s, image.color);
+    if (!start) level.addKeyframe(keyframe, image, cameraOf(*observation));
+}
+
+std::vector<std::string> RunState::allWarnings() const {
+    std::vector<std::string> all = earlier_warnings;
+    const auto own = warnings.warnings();
+    all.insert(all.end(), own.begin(), own.end());
+    return all;
+}
+
+std::vector<MapSession> RunState::sessions() const {
+    std::vector<MapSession> all;
+    if (start) all = start->sessions;
+    const std::string rawlog = std::filesystem::absolute(job.rawlog).lexically_normal().string();
+    all.push_back({rawlog, first_keyframe});
+    return all;
+}
+
+Trajectory RunState::located() const {
+    Trajectory trajectory;
+    for (const TrackedFrame& frame : session.slam().frames()) {
+        if (frame.origin == FrameOrigin::Lost || apart(frame.part)) continue;
+        trajectory.push_back({frame.stamp_s, frame.T_world_cam});
+    }
+    return trajectory;
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,60 @@
+/** What the stages of a job hand on to each other. */
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/graphslam/frame_stream.h"
+#include "rgbd_graphslam/graphslam/graph_slam_session.h"
+#include "rgbd_graphslam/graphslam/slam_job.h"
+#include "rgbd_graphslam/graphslam/sparse_map_file.h"
+#include "rgbd_graphslam/mapping/level_survey.h"
+#include "rgbd_graphslam/report/keyframe_sheet.h"
+
+namespace rgbd_graphslam {
+
+/** A job's memory: tracking fills it, a checkpoint saves it, the description completes the report,
+ *  and the outputs are made of it. */
+struct RunState {
+    /** \param slam_job must outlive it
+     *  \param start_map the map that the job starts from, if any; its snapshot goes to the session
+     *  \throws Error when the rawlog has no RGB-D frame or the map does not fit it */
+    RunState(const SlamJob& slam_job, std::optional<SparseMap> start_map);
+    ~RunState() {
+        stream.stop();
+    }  // frames read ahead are prepared by the session, which goes first
+    RunState(const RunState&) = delete;
+    RunState& operator=(const RunState&) = delete;
+
+    /** Notes how tracking placed a new keyframe. */
+    void noteKeyframe(int keyframe);
+    /** Of the frame last looked at: what report and maps will need. */
+    void keepPictures(int keyframe, const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
+
+    std::vector<std::string> allWarnings() const;
+    /** The earlier ones' and this one. */
+    std::vector<MapSession> sessions() const;
+    /** Whether a part of the map is not the one that is written. */
+    bool apart(int map_part) const { return map_part != part; }
+    /** Frames with a known place in the map that is written. */
+    Trajectory located() const;
+
+    const SlamJob& job;
+    std::optional<SparseMap> start;
+    FrameStream stream;
+    GraphSlamSession session;
+    WarningRecord warnings;
+    std::vector<std::string> earlier_warnings;  // before the checkpoint
+    JobReport report;
+    std::optional<double> first_stamp_s, last_stamp_s;
+    std::size_t frames_read = 0;           // tracked or left out
+    int first_keyframe = 0;                // of this rawlog
+    int part = 0;                          // of the map that is written
+    std::vector<SE3> T_previous_keyframe;  // one a keyframe, the identity for the first
+    KeyframeSheet keyframe_sheet;
+    LevelSurvey level;
+    Trajectory truth;  // beside the estimate, in its world
+};
+
+}  // namespace rgbd_graphslam
