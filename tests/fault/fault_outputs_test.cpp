@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <random>
@@ -18,6 +19,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 constexpr int kills = 50;
+constexpr int finished_frames = 8;
 
 std::string inQuotes(const std::string& text) {
     return "'" + text + "'";
@@ -59,7 +61,9 @@ bool isWholeOfItsKind(const std::string& name, const std::string& bytes) {
                bytes.compare(bytes.size() - end.size(), end.size(), end) == 0;
     };
     return (name == "summary.json" && endsWith("\n}\n")) ||
-           (name == "report.html" && endsWith("</html>\n"));
+           (name == "report.html" && endsWith("</html>\n")) ||
+           (name == "frame_times.csv" && endsWith("\n") &&
+            std::count(bytes.begin(), bytes.end(), '\n') == 1 + finished_frames);
 }
 
 /** A tmpfs, which only root can make. */
@@ -91,7 +95,7 @@ class FaultOutputs : public ::testing::Test {
   protected:
     FaultOutputs() {
         writeFilm(folder_ / "earlier.rawlog", 4);
-        writeFilm(folder_ / "a.rawlog", 8);
+        writeFilm(folder_ / "a.rawlog", finished_frames);
         earlier_ = run("earlier.rawlog", "out");
         const auto start = std::chrono::steady_clock::now();
         finished_ = run("a.rawlog", "finished");

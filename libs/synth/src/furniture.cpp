@@ -364,8 +364,8 @@ void Furnisher::clutter(const SE3& frame, double length, double width, int count
 
 // ---- people --------------------------------------------------------------------------------
 
-Figure Furnisher::trunk(const Skin& shirt) {
-    Figure figure;
+MovingBody Furnisher::trunk(const Skin& shirt) {
+    MovingBody figure;
     addBox(scene_, figure.quads, standing(0, 0, 0.88, 0), {0.24, 0.42, 0.58}, BoxSkin(shirt));
     addCylinder(figure.quads, standing(0, 0, 1.44, 0), 0.06, 0.06, 0.08, Skin{face_}, Skin{face_});
     addCylinder(figure.quads, standing(0, 0, 1.5, -0.6), 0.085, 0.1, 0.25, Skin{face_},
@@ -373,8 +373,8 @@ Figure Furnisher::trunk(const Skin& shirt) {
     return figure;
 }
 
-Figure Furnisher::limb(double length, double thickness, const Skin& cloth, bool with_shoe) {
-    Figure figure;
+MovingBody Furnisher::limb(double length, double thickness, const Skin& cloth, bool with_shoe) {
+    MovingBody figure;
     addBox(scene_, figure.quads, standing(0, 0, -length, 0), {thickness, thickness, length},
            BoxSkin(cloth));
     if (with_shoe)

@@ -216,7 +216,7 @@ Renderer::Impl::Impl(const Scene& scene, const Camera& camera)
     const Lighting lighting(scene);
     std::vector<mrpt::opengl::CRenderizable::Ptr> still;
     addQuads(scene, lighting, scene.quads, still);
-    for (const Figure& figure : scene.figures) {
+    for (const MovingBody& figure : scene.figures) {
         figures_.emplace_back();
         addQuads(scene, lighting, figure.quads, figures_.back());
     }

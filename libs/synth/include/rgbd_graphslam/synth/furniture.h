@@ -85,8 +85,8 @@ class Furnisher {
     void panel(const SE3& frame, double width, double height, double depth, const Skin& front);
     void bookRow(const SE3& frame, double width, double headroom);
     void packageRow(const SE3& frame, double width, double headroom);
-    Figure trunk(const Skin& shirt);
-    Figure limb(double length, double thickness, const Skin& cloth, bool with_shoe);
+    MovingBody trunk(const Skin& shirt);
+    MovingBody limb(double length, double thickness, const Skin& cloth, bool with_shoe);
     Skin anyOf(const std::vector<int>& materials);
     Skin spine();
 

@@ -53,7 +53,7 @@ struct Lamp {
 };
 
 /** Faces that move together, in a frame of their own. */
-struct Figure {
+struct MovingBody {
     std::vector<Quad> quads;
 };
 
@@ -61,7 +61,7 @@ struct Scene {
     std::vector<Material> materials;
     std::vector<Quad> quads;
     std::vector<Lamp> lamps;
-    std::vector<Figure> figures;
+    std::vector<MovingBody> figures;
     /** Light from everywhere; small in a dark room. */
     double ambient = 0.55;
 
