@@ -150,7 +150,7 @@ std::optional<LocatedFrame> LoopCloser::relocalise(const Frame& frame, Tracker& 
     return std::nullopt;
 }
 
-void LoopCloser::correct(const std::vector<SE3>& T_world_keyframe, LocalMapper& mapper) {
+bool LoopCloser::correct(const std::vector<SE3>& T_world_keyframe, LocalMapper& mapper) {
     std::vector<SE3> moved;
     for (const Keyframe& keyframe : map_.keyframes()) {
         moved.push_back(T_world_keyframe[keyframe.id] * map_.T_cam_world(keyframe.id));
@@ -165,13 +165,16 @@ void LoopCloser::correct(const std::vector<SE3>& T_world_keyframe, LocalMapper& 
     for (const Keyframe& keyframe : map_.keyframes()) {
         if (!keyframe.culled) map_.setPose(keyframe.id, T_world_keyframe[keyframe.id].inverse());
     }
+    bool closed = false;
     for (const VerifiedLoop& loop : std::exchange(unfused_, {})) {
         if (plausibility_.followed(loop)) {
             fuse(loop, mapper);
+            closed = true;
         } else {
             forget(loop.edge);
         }
     }
+    return closed;
 }
 
 void LoopCloser::forget(const PoseEdge& edge) {

@@ -35,8 +35,9 @@ class LoopCloser {
     std::optional<LocatedFrame> relocalise(const Frame& frame, Tracker& tracker) const;
 
     /** Moves keyframes, and landmarks with the keyframe that saw them last; then fuses what the
-     * loops since the last call brought together. */
-    void correct(const std::vector<SE3>& T_world_keyframe, LocalMapper& mapper);
+     *  loops since the last call brought together.
+     *  \return whether there was such a loop, not only ones that the graph left unheeded */
+    bool correct(const std::vector<SE3>& T_world_keyframe, LocalMapper& mapper);
 
   private:
     void forgetCulled();
