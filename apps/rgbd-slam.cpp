@@ -48,8 +48,8 @@ void declare(CLI::App& app, Arguments& args) {
     auto* const resume =
         app.add_option("--resume", args.resume_folder,
                        "Go on with the killed or interrupted run in this folder from its last "
-                       "checkpoint, with its "
-                       "settings and its rawlog; the result is that of a run never ended");
+                       "checkpoint, with its settings and its rawlog; the result is that of a run "
+                       "never ended");
     for (auto* const other : {ini, rawlog, out, map, set, max_frames, no_maps}) {
         resume->excludes(other);
     }

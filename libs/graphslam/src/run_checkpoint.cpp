@@ -2,9 +2,9 @@
 
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/thread_clock.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
-#include "rgbd_graphslam/slam/thread_clock.h"
 
 namespace rgbd_graphslam {
 namespace {

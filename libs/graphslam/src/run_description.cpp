@@ -73,8 +73,7 @@ Trajectory truthOf(const RunState& run) {
 void describeLoops(const Trajectory& truth, RunState& run) {
     JobReport& report = run.report;
     const std::vector<KeyframeView> keyframes = run.session.slam().keyframes();
-    for (const PoseEdge& edge : run.session.slam().poseGraph().edges) {
-        if (edge.kind != EdgeKind::Loop) continue;
+    for (const PoseEdge& edge : run.session.slam().loops()) {
         ReportedLoop loop{edge.from, edge.to, edge.inliers, std::nullopt};
         if (!run.job.localises() && std::min(edge.from, edge.to) >= run.first_keyframe) {
             loop.error_m =

@@ -7,9 +7,9 @@
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/thread_clock.h"
 #include "rgbd_graphslam/mapping/map_builder.h"
 #include "rgbd_graphslam/report/run_report.h"
-#include "stopwatch.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -82,20 +82,20 @@ void writeMap(RunState& run) {
     writeAllPoses(run, upright, T_up_world);
     writeSparseMap(pathOf(run, sparse_map_name), {run.session.slam().snapshot(), T_up_world,
                                                   configHash(run.job.options), run.sessions()});
-    const Stopwatch watch;
+    const ThreadClock clock;
     if (run.job.options.run.dense_maps) {
         writeMaps(upright, run.job.options.maps, run.job.out_folder);
     }
-    run.report.maps_wall_s = watch.seconds();
+    run.report.maps_wall_s = 1e-3 * clock.wallMs();
 }
 
 void writeReport(const RunState& run) {
-    const Stopwatch watch;
+    const ThreadClock clock;
     writeAtomically(pathOf(run, "keyframes.jpg"), [&](const std::string& temporary) {
         return cv::imwrite(temporary, run.keyframe_sheet.picture(), {cv::IMWRITE_JPEG_QUALITY, 80});
     });
     writeRunReport(run.job.out_folder, run.job.out_folder);
-    sayDetail("report.html took " + std::to_string(1e3 * watch.seconds()) + " ms");
+    sayDetail("report.html took " + std::to_string(clock.wallMs()) + " ms");
 }
 
 }  // namespace

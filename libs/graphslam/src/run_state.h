@@ -21,9 +21,8 @@ struct RunState {
      *  \param start_map the map that the job starts from, if any; its snapshot goes to the session
      *  \throws Error when the rawlog has no RGB-D frame or the map does not fit it */
     RunState(const SlamJob& slam_job, std::optional<SparseMap> start_map);
-    ~RunState() {
-        stream.stop();
-    }  // frames read ahead are prepared by the session, which goes first
+    /** Frames read ahead are prepared by the session, which goes before the stream. */
+    ~RunState() { stream.stop(); }
     RunState(const RunState&) = delete;
     RunState& operator=(const RunState&) = delete;
 

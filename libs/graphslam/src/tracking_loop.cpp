@@ -4,8 +4,8 @@
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/progress.h"
+#include "rgbd_graphslam/core/thread_clock.h"
 #include "run_checkpoint.h"
-#include "stopwatch.h"
 
 namespace rgbd_graphslam {
 
@@ -13,7 +13,7 @@ TrackingLoop::TrackingLoop(RunState& run) : run_(run), live_feed_(run.job.out_fo
 
 void TrackingLoop::track(CheckpointWriter& checkpoints) {
     JobReport& report = run_.report;
-    const Stopwatch watch;
+    const ThreadClock clock;
     const double cpu_before = processCpuSeconds();
     const double earlier_wall_s = report.tracking_wall_s, earlier_cpu_s = report.tracking_cpu_s;
     Progress progress("tracking", run_.stream.expectedFrames());
@@ -26,7 +26,7 @@ void TrackingLoop::track(CheckpointWriter& checkpoints) {
         trackOne(*frame);
         ++run_.frames_read;
         checkLimits();
-        report.tracking_wall_s = earlier_wall_s + watch.seconds();
+        report.tracking_wall_s = earlier_wall_s + 1e-3 * clock.wallMs();
         report.tracking_cpu_s = earlier_cpu_s + processCpuSeconds() - cpu_before;
         if (checkpoints.due(run_.T_previous_keyframe.size())) writeCheckpoint(run_, checkpoints);
         progress.expect(run_.stream.expectedFrames());
@@ -82,9 +82,9 @@ void TrackingLoop::trackOne(const StreamedFrame& frame) {
     run_.last_stamp_s = stamp_s;
     if (!run_.first_stamp_s) run_.first_stamp_s = stamp_s;
     ++run_.report.frames;
-    const Stopwatch watch;
+    const ThreadClock clock;
     const TrackedFrame tracked = run_.session.step(frame.observation, frame.prepared);
-    run_.report.frame_times.push_back({stamp_s, 1e3 * watch.seconds()});
+    run_.report.frame_times.push_back({stamp_s, clock.wallMs()});
     live_feed_.note(frame, tracked, run_.report.frame_times.back().wall_ms, run_.session);
     if (!tracked.keyframe) return;
     run_.noteKeyframe(*tracked.keyframe);

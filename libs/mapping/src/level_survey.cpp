@@ -1,6 +1,5 @@
 #include "rgbd_graphslam/mapping/level_survey.h"
 
-#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationIMU.h>
 
 #include <algorithm>

@@ -10,6 +10,7 @@
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/thread_clock.h"
 #include "rgbd_graphslam/mapping/dense_mapper.h"
 #include "rgbd_graphslam/mapping/keyframe_reader.h"
 #include "rgbd_graphslam/mapping/map_files.h"
@@ -17,7 +18,6 @@
 #include "rgbd_graphslam/mapping/plan_view.h"
 #include "rgbd_graphslam/mapping/simple_map.h"
 #include "rgbd_graphslam/mapping/view_coverage.h"
-#include "rgbd_graphslam/slam/thread_clock.h"
 
 namespace rgbd_graphslam {
 namespace {

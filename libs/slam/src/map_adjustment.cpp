@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "rgbd_graphslam/core/thread_clock.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
-#include "rgbd_graphslam/slam/thread_clock.h"
 
 namespace rgbd_graphslam {
 namespace {

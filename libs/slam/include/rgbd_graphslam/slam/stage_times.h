@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "rgbd_graphslam/core/thread_clock.h"
 #include "rgbd_graphslam/slam/visual_slam.h"
-#include "rgbd_graphslam/slam/thread_clock.h"
 
 namespace rgbd_graphslam {
 
