@@ -47,18 +47,30 @@ DepthPyramid::DepthPyramid(const cv::Mat1f& depth) {
     cv::integral(valid, count_, CV_32S);
 }
 
-DepthPyramid::Range DepthPyramid::range(const PixelRect& rect) const {
+DepthPyramid::Side DepthPyramid::sideOf(const PixelRect& rect, float near_m, float far_m) const {
     constexpr int tiles_across = 4;  // wide enough to fit the rectangle well, few enough to be fast
     std::size_t level = 0;
     const int extent = std::max(rect.u1 - rect.u0, rect.v1 - rect.v0);
     while (extent >> level >= tiles_across) ++level;
+    // What larger tiles tell for certain, smaller ones would not tell otherwise.
+    const std::size_t coarse = std::min(level + 2, levels_.size() - 1);
+    const Side side = sideAt(coarse, rect, near_m, far_m);
+    return side == Side::Across ? sideAt(level, rect, near_m, far_m) : side;
+}
+
+DepthPyramid::Side DepthPyramid::sideAt(std::size_t level, const PixelRect& rect, float near_m,
+                                        float far_m) const {
     const cv::Mat2f& tiles = levels_[level];
-    cv::Vec2f all = nothing;
+    bool some_behind = false, some_before = false;
     for (int v = rect.v0 >> level; v <= rect.v1 >> level; ++v) {
         const cv::Vec2f* row = tiles[v];
-        for (int u = rect.u0 >> level; u <= rect.u1 >> level; ++u) all = merged(all, row[u]);
+        for (int u = rect.u0 >> level; u <= rect.u1 >> level; ++u) {
+            some_before |= row[u][0] <= far_m;
+            some_behind |= row[u][1] > near_m;
+        }
+        if (some_before && some_behind) return Side::Across;
     }
-    return {all[0], all[1]};
+    return some_behind ? Side::Clear : Side::Hidden;
 }
 
 int DepthPyramid::readings(const PixelRect& rect) const {

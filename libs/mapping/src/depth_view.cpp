@@ -40,10 +40,43 @@ cv::Mat1f metres(const cv::Mat& raw, double unit_m, double nearest_m) {
     return depth;
 }
 
-/** A neighbour without a reading says nothing. */
+/** A neighbour without a reading says nothing. Without a branch, for whole rows to be vectorised.
+ */
 bool jumps(float z, float neighbour, float tolerance) {
-    return neighbour > 0 && std::abs(neighbour - z) > tolerance;
+    return (neighbour > 0) & (std::abs(neighbour - z) > tolerance);
 }
+
+/** Drops readings beside a depth edge. */
+class EdgeFilter {
+  public:
+    EdgeFilter(double ratio, const DepthNoise& noise)
+        : ratio_(static_cast<float>(ratio)),
+          a_(static_cast<float>(noise.a)),
+          b_(static_cast<float>(noise.b)),
+          c_(static_cast<float>(noise.c)) {}
+
+    void cleanRow(const cv::Mat1f& depth, int v, float* out) const {
+        const float *row = depth[v], *above = depth[std::max(v - 1, 0)];
+        const float* below = depth[std::min(v + 1, depth.rows - 1)];
+        const int last = depth.cols - 1;
+        const auto clean = [&](int u, int left, int right) {
+            return cleaned(row[u], row[left], row[right], above[u], below[u]);
+        };
+        out[0] = clean(0, 0, std::min(1, last));
+        for (int u = 1; u < last; ++u) out[u] = clean(u, u - 1, u + 1);
+        out[last] = clean(last, std::max(last - 1, 0), last);
+    }
+
+  private:
+    float cleaned(float z, float left, float right, float above, float below) const {
+        const float tolerance = ratio_ * z + 3 * (a_ + b_ * (z - c_) * (z - c_));
+        const bool edge = jumps(z, above, tolerance) | jumps(z, below, tolerance) |
+                          jumps(z, left, tolerance) | jumps(z, right, tolerance);
+        return edge ? 0.f : z;
+    }
+
+    float ratio_, a_, b_, c_;
+};
 
 cv::Mat3b colorOf(const RgbdImage& image) {
     const cv::Size size = image.depth.size();
@@ -91,23 +124,9 @@ cv::Mat1f cleanDepth(const RgbdImage& image, const Camera& camera, const MapOpti
                      const DepthNoise& noise) {
     checkImage(image, camera);
     const cv::Mat1f depth = metres(image.depth, image.depth_unit_m, options.min_range_m);
-    cv::Mat1f clean = depth.clone();
-    const auto ratio = static_cast<float>(options.edge_ratio);
-    const auto a = static_cast<float>(noise.a), b = static_cast<float>(noise.b),
-               c = static_cast<float>(noise.c);
-    for (int v = 0; v < depth.rows; ++v) {
-        const float *row = depth[v], *above = depth[std::max(v - 1, 0)];
-        const float* below = depth[std::min(v + 1, depth.rows - 1)];
-        float* out = clean[v];
-        for (int u = 0; u < depth.cols; ++u) {
-            const float z = row[u];
-            const float tolerance = ratio * z + 3 * (a + b * (z - c) * (z - c));
-            const bool edge = jumps(z, above[u], tolerance) | jumps(z, below[u], tolerance) |
-                              jumps(z, row[std::max(u - 1, 0)], tolerance) |
-                              jumps(z, row[std::min(u + 1, depth.cols - 1)], tolerance);
-            if (edge) out[u] = 0;
-        }
-    }
+    cv::Mat1f clean(depth.size());
+    const EdgeFilter filter(options.edge_ratio, noise);
+    for (int v = 0; v < depth.rows; ++v) filter.cleanRow(depth, v, clean[v]);
     return clean;
 }
 

@@ -1,7 +1,7 @@
 #include "rgbd_graphslam/mapping/free_space.h"
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 
 namespace rgbd_graphslam {
 namespace {
@@ -78,30 +78,50 @@ class Carver {
         const Eigen::Vector3f low = c - cube.size * reach_, high = c + cube.size * reach_;
         if (high.z() < nearest_plane_m || low.z() > max_range_) return Sight::Unseen;
         if (low.z() < nearest_plane_m) return Sight::Mixed;
-        return compare(image(low, high), cube.size, low.z(), high.z());
+        const Image image = imageOf(low, high);
+        if (image.right <= -1 || image.left >= camera_.width || image.bottom <= -1 ||
+            image.top >= camera_.height)
+            return Sight::Unseen;
+        return compare(image, cube.size, low.z(), high.z());
     }
 
-    Sight compare(const PixelRect& whole, int size, float near, float far) const {
-        const PixelRect rect{std::max(whole.u0, 0), std::max(whole.v0, 0),
-                             std::min(whole.u1, camera_.width - 1),
-                             std::min(whole.v1, camera_.height - 1)};
-        if (rect.u0 > rect.u1 || rect.v0 > rect.v1) return Sight::Unseen;
-        const DepthPyramid::Range seen = sight_.range(rect);
-        if (seen.farthest <= near) return Sight::Unseen;
-        if (seen.nearest <= far || far > max_range_) return Sight::Mixed;
-        const double needed = size == 1 ? enough_readings * whole.area() : whole.area();
-        return sight_.readings(rect) >= needed ? Sight::Free : Sight::Mixed;
-    }
+    /** A rectangle that may reach beyond the camera's image, pixels. */
+    struct Image {
+        double left, top, right, bottom;
+        /** Of the whole pixels that it touches. */
+        double area() const {
+            return (std::ceil(right) - std::floor(left) + 1) *
+                   (std::ceil(bottom) - std::floor(top) + 1);
+        }
+    };
 
-    PixelRect image(const Eigen::Vector3f& low, const Eigen::Vector3f& high) const {
+    Image imageOf(const Eigen::Vector3f& low, const Eigen::Vector3f& high) const {
         const float at_near = 1 / low.z(), at_far = 1 / high.z();
         const auto least = [&](float x) { return x * (x < 0 ? at_near : at_far); };
         const auto most = [&](float x) { return x * (x > 0 ? at_near : at_far); };
-        const auto pixel = [](double x) { return static_cast<int>(std::clamp(x, -1e6, 1e6)); };
-        return {pixel(std::floor(camera_.fx * least(low.x()) + camera_.cx)),
-                pixel(std::floor(camera_.fy * least(low.y()) + camera_.cy)),
-                pixel(std::ceil(camera_.fx * most(high.x()) + camera_.cx)),
-                pixel(std::ceil(camera_.fy * most(high.y()) + camera_.cy))};
+        return {camera_.fx * least(low.x()) + camera_.cx, camera_.fy * least(low.y()) + camera_.cy,
+                camera_.fx * most(high.x()) + camera_.cx, camera_.fy * most(high.y()) + camera_.cy};
+    }
+
+    /** What the camera's image holds of it. */
+    PixelRect seenPartOf(const Image& image) const {
+        const auto first = [](double x) { return x > 0 ? static_cast<int>(x) : 0; };
+        const auto last = [](double x, int size) {
+            if (x >= size - 1) return size - 1;
+            const int whole = static_cast<int>(x);
+            return whole < x ? whole + 1 : whole;
+        };
+        return {first(image.left), first(image.top), last(image.right, camera_.width),
+                last(image.bottom, camera_.height)};
+    }
+
+    Sight compare(const Image& image, int size, float near_m, float far_m) const {
+        const PixelRect rect = seenPartOf(image);
+        const auto side = sight_.sideOf(rect, near_m, far_m);
+        if (side == DepthPyramid::Side::Hidden) return Sight::Unseen;
+        if (side == DepthPyramid::Side::Across || far_m > max_range_) return Sight::Mixed;
+        const double needed = size == 1 ? enough_readings * image.area() : image.area();
+        return sight_.readings(rect) >= needed ? Sight::Free : Sight::Mixed;
     }
 
     const DepthPyramid& sight_;

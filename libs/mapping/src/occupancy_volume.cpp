@@ -79,7 +79,7 @@ std::optional<Eigen::Vector3f> OccupancyVolume::color(const VoxelIndex& voxel) c
 
 std::size_t OccupancyVolume::bytes() const {
     return blocks_.bytes() + blocks_.entries().size() * sizeof(Block) + colors_.bytes() +
-           cells_.bytes() + frame_cells_.bytes() + frame_.bytes();
+           cells_.bytes() + frame_.bytes();
 }
 
 void OccupancyVolume::checkReach(const SE3& T_world_cam, double range_m) const {
@@ -124,17 +124,18 @@ void OccupancyVolume::addMiss(const VoxelCube& cube) {
 
 /** Into frame_ by voxel, and into the cells. */
 void OccupancyVolume::sortReadings(const SE3& T_world_cam, const DepthView& view, int step) {
-    frame_cells_.clear();
     frame_.clear();
+    constexpr std::uint64_t none = ~0ull;
+    std::uint64_t last_key = none;
+    VoxelReadings* last = nullptr;  // neighbouring runs often share a voxel
     SurfaceSampler(view, T_world_cam, cells_.cellSize(), step)
         .forEachRun([&](const VoxelIndex& cell, const SurfaceSample& run) {
-            frame_cells_[voxelKey(cell)].add(run);
+            const std::uint64_t key = voxelKey({cell.x >> 1, cell.y >> 1, cell.z >> 1});
+            if (key != last_key) last = &frame_[key];
+            last_key = key;
+            last->add(cell, run);
         });
-    for (const auto& [key, sample] : frame_cells_.entries()) {
-        cells_.add(key, sample);
-        const VoxelIndex cell = voxelOfKey(key);
-        frame_[voxelKey({cell.x >> 1, cell.y >> 1, cell.z >> 1})].add(sample);
-    }
+    for (const auto& [key, readings] : frame_.entries()) cells_.add(voxelOfKey(key), readings);
 }
 
 void OccupancyVolume::addHits(const SE3& T_world_cam, const DepthView& view) {
@@ -143,17 +144,17 @@ void OccupancyVolume::addHits(const SE3& T_world_cam, const DepthView& view) {
     sortReadings(T_world_cam, view, step);
     const double share = hit_share_ / (step * step);
     const Eigen::Vector3d forward = T_world_cam.R.col(2);
-    for (const auto& [key, sample] : frame_.entries()) {
+    for (const auto& [key, in_voxel] : frame_.entries()) {
         const VoxelIndex voxel = voxelOfKey(key);
         const Eigen::Vector3d center =
             resolution_m_ * (Eigen::Vector3d(voxel.x, voxel.y, voxel.z).array() + 0.5);
         const double z = std::max(resolution_m_, forward.dot(center - T_world_cam.t));
-        if (sample.readings < share * pixelsOfVoxel(camera, resolution_m_, z)) continue;
+        if (in_voxel.readings < share * pixelsOfVoxel(camera, resolution_m_, z)) continue;
         std::int8_t& value = block(voxel).log_odds[indexInBlock(voxel)];
         value = struck(value);
         ColorSum& color = colors_[key];
-        color.sum += sample.color;
-        color.weight += sample.weight;
+        color.sum += in_voxel.color;
+        color.weight += in_voxel.weight();
     }
 }
 

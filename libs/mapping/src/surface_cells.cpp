@@ -41,10 +41,15 @@ class Moments {
 
 }  // namespace
 
-void SurfaceCells::add(std::uint64_t cell_key, const SurfaceSample& sample) {
-    Cell& cell = cells_[cell_key];
-    cell.weight += sample.weight;
-    cell.offset += sample.offset;
+void SurfaceCells::add(const VoxelIndex& voxel, const VoxelReadings& readings) {
+    for (int i = 0; i < 8; ++i) {
+        const Cell& more = readings.cells[i];
+        if (more.weight <= 0) continue;
+        Cell& cell = cells_[voxelKey(
+            {2 * voxel.x + (i & 1), 2 * voxel.y + (i >> 1 & 1), 2 * voxel.z + (i >> 2)})];
+        cell.weight += more.weight;
+        cell.offset += more.offset;
+    }
 }
 
 Eigen::Vector3d SurfaceCells::meanOf(const VoxelIndex& index, const Cell& cell) {

@@ -18,13 +18,14 @@ class DepthPyramid {
     /** \param depth m, 0 = no reading */
     explicit DepthPyramid(const cv::Mat1f& depth);
 
-    struct Range {
-        float nearest;   // +infinity without any reading
-        float farthest;  // 0 without any reading
+    enum class Side {
+        Hidden,  // no reading lies behind the nearer depth
+        Across,  // neither
+        Clear    // all readings lie behind the farther depth
     };
-    /** Over the tiles that cover the rectangle: possibly wider than its own range, never narrower.
-     */
-    Range range(const PixelRect& rect) const;
+    /** How the depths [near_m, far_m] lie to the readings of a rectangle, or rather of the tiles
+     *  that cover it: where those reach farther than it does, the answer can be Across instead. */
+    Side sideOf(const PixelRect& rect, float near_m, float far_m) const;
 
     /** Readings within the rectangle, exactly. \param rect inside the image */
     int readings(const PixelRect& rect) const;
@@ -35,6 +36,8 @@ class DepthPyramid {
     float farthest() const;
 
   private:
+    Side sideAt(std::size_t level, const PixelRect& rect, float near_m, float far_m) const;
+
     std::vector<cv::Mat2f> levels_;  // (nearest, farthest) of tiles of 2^level pixels
     cv::Mat1i count_;                // summed-area table
 };

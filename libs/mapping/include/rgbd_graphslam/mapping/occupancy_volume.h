@@ -82,7 +82,7 @@ class OccupancyVolume {
     };
     VoxelTable<ColorSum> colors_;
     SurfaceCells cells_;
-    VoxelTable<SurfaceSample> frame_cells_, frame_;  // of one view; kept to reuse their memory
+    VoxelTable<VoxelReadings> frame_;  // of one view; kept to reuse its memory
 };
 
 }  // namespace rgbd_graphslam

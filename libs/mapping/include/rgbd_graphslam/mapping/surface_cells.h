@@ -1,6 +1,7 @@
 /** Where the surface runs, from the readings of all views together. */
 #pragma once
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 
 #include "rgbd_graphslam/mapping/surface_samples.h"
@@ -19,6 +20,33 @@ struct Plane {
     }
 };
 
+/** One view's readings in a voxel. */
+struct VoxelReadings {
+    struct Cell {
+        float weight = 0;
+        Eigen::Vector3f offset = Eigen::Vector3f::Zero();  // weighted; as in SurfaceSample
+    };
+    /** By the lowest bits of a cell's coordinates, x first. */
+    std::array<Cell, 8> cells;
+    Eigen::Vector3f color = Eigen::Vector3f::Zero();  // weighted; BGR, 0 to 255
+    int readings = 0;
+
+    /** \param cell with coordinates as in SurfaceCells */
+    void add(const VoxelIndex& cell, const SurfaceSample& sample) {
+        Cell& part = cells[(cell.x & 1) | (cell.y & 1) << 1 | (cell.z & 1) << 2];
+        part.weight += sample.weight;
+        part.offset += sample.offset;
+        color += sample.color;
+        readings += sample.readings;
+    }
+
+    float weight() const {
+        float sum = 0;
+        for (const Cell& cell : cells) sum += cell.weight;
+        return sum;
+    }
+};
+
 /** Weighted means of readings in cells of half a voxel's edge. A single reading errs by
  * centimetres; the plane through what all views read about a place does not, which tells a voxel
  * that holds surface from one beside it that noise spilled into. */
@@ -28,7 +56,7 @@ class SurfaceCells {
 
     double cellSize() const { return voxel_m_ / 2; }
 
-    void add(std::uint64_t cell_key, const SurfaceSample& sample);
+    void add(const VoxelIndex& voxel, const VoxelReadings& readings);
 
     /** The plane fitted by moving least squares (Levin, "Mesh-independent surface interpolation",
      *  2003) to the cells around the mean of a voxel's readings. Nothing where the readings do not
@@ -38,10 +66,7 @@ class SurfaceCells {
     std::size_t bytes() const { return cells_.bytes(); }
 
   private:
-    struct Cell {
-        float weight = 0;
-        Eigen::Vector3f offset = Eigen::Vector3f::Zero();  // weighted; as in SurfaceSample
-    };
+    using Cell = VoxelReadings::Cell;
     /** From the origin of coordinates, in cells. */
     static Eigen::Vector3d meanOf(const VoxelIndex& index, const Cell& cell);
     /** \param middle, radius in cells */
