@@ -3,9 +3,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservation2DRangeScan.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationGPS.h>
 #include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationRawDAQ.h>
 #include <mrpt/obs/CObservationRobotPose.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <cstring>
@@ -129,6 +132,55 @@ TEST_F(FaultRawlog, damagedLengthsEndInOneLine) {
         EXPECT_EQ(std::count(err.begin(), err.end(), '\n'), 1) << err;
         fs::remove_all(folder_ / "sequence");
     }
+}
+
+/** While it lives, a block of 1 GB is refused. */
+class LittleMemory {
+  public:
+    LittleMemory() {
+#ifndef __SANITIZE_ADDRESS__  // which needs more itself
+        getrlimit(RLIMIT_DATA, &before_);
+        rlimit little = before_;
+        little.rlim_cur = rlim_t{1} << 30;
+        setrlimit(RLIMIT_DATA, &little);
+#endif
+    }
+    ~LittleMemory() {
+#ifndef __SANITIZE_ADDRESS__
+        setrlimit(RLIMIT_DATA, &before_);
+#endif
+    }
+    LittleMemory(const LittleMemory&) = delete;
+    LittleMemory& operator=(const LittleMemory&) = delete;
+
+  private:
+    rlimit before_;
+};
+
+TEST_F(FaultRawlog, textsAndListsTakeNoMoreMemoryThanTheFileHas) {
+    mrpt::obs::CObservationRawDAQ voltages;
+    voltages.sensorLabel = "a label";
+    voltages.AIN_double.assign(20, 1.0);
+    mrpt::obs::CObservationComment comment;
+    comment.text = "a text";
+    write([&](RawlogWriter& writer) {
+        writer.write(comment);
+        writer.write(voltages);
+    });
+    const std::string whole = readText(rawlog());
+    std::string error;
+    ASSERT_EQ(readAll(error), 2u) << error;
+    int refused = 0;
+    for (std::size_t at = 0; at + 4 <= whole.size(); ++at) {
+        std::string changed = whole;
+        folder_.write("a.rawlog", changed.replace(at, 4, "\xff\xff\xff\x7f"));
+        const LittleMemory while_reading;
+        readAll(error);
+        EXPECT_THAT(error, Not(AnyOf(HasSubstr("bad_alloc"), HasSubstr("memory"))))
+            << "byte " << at;
+        refused += !error.empty();
+    }
+    EXPECT_GT(refused, static_cast<int>(whole.size() / 3));
 }
 
 /** Asked for in one block this is more than any machine of today grants. */
@@ -267,6 +319,30 @@ TEST_F(FaultRawlog, calibrationThatIsNone) {
     }
     write(film_);
     expectRefused("calibration");
+}
+
+TEST_F(FaultRawlog, lensThatCannotBeUndone) {
+    for (const double k1 : {-3.0, std::numeric_limits<double>::quiet_NaN()}) {
+        for (const auto& frame : film_) {
+            frame->cameraParamsIntensity.setDistortionPlumbBob(k1, 0, 0, 0, 0);
+        }
+        write(film_);
+        expectRefused("lens distortion that cannot be undone");
+    }
+}
+
+TEST_F(FaultRawlog, lensThatCannotBeUndoneInALaterFrame) {
+    film_[4]->cameraParamsIntensity.setDistortionPlumbBob(-3, 0, 0, 0, 0);
+    write(film_);
+    expectRefused("lens distortion that cannot be undone");
+    EXPECT_THAT(readText(folder_ / "out/summary.json"), HasSubstr("\"tracked\": 4"));
+}
+
+/** Tables are made for the size that the calibration names, before any image is looked at. */
+TEST_F(FaultRawlog, calibrationOfAnImpossibleSize) {
+    for (const auto& frame : film_) frame->cameraParamsIntensity.nrows = 0x7fffffff;
+    write(film_);
+    expectRefused("images of an impossible size");
 }
 
 TEST_F(FaultRawlog, flagThatIsNeitherYesNorNo) {

@@ -46,8 +46,16 @@ class RandomInputs {
         delta << vector(m), vector(rad);
         return delta;
     }
-    /** Of any size, seeing 45 to 70 degrees, with the distortion of one that is sold. */
+    /** Of any size, seeing 45 to 70 degrees, with a lens as they are sold: none folds the image. */
     Camera camera() {
+        for (;;) {
+            const Camera camera = anyCamera();
+            if (camera.undoesDistortion()) return camera;
+        }
+    }
+
+  private:
+    Camera anyCamera() {
         Camera camera;
         camera.width = 160 + index(1200);
         camera.height = camera.width * 3 / 4;
@@ -60,7 +68,6 @@ class RandomInputs {
         return camera;
     }
 
-  private:
     std::mt19937 generator_;
 };
 

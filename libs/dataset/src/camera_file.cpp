@@ -66,7 +66,9 @@ class CameraFile {
             refuse("distortion_model must be none or plumb_bob");
         }
         checkLens(camera);
-        return toCamera(camera);
+        const Camera own = toCamera(camera);
+        if (!own.undoesDistortion()) refuse("dist: this distortion cannot be undone in the image");
+        return own;
     }
 
     double positive(const std::string& key, double otherwise) const {

@@ -2,13 +2,17 @@
 
 #include <dlfcn.h>
 #include <mrpt/core/aligned_allocator.h>
+#include <mrpt/serialization/CArchive.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
 #include <new>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <jpeglib.h>  // needs cstdio
 
@@ -20,6 +24,22 @@ thread_local std::size_t most_bytes_at_once = std::numeric_limits<std::size_t>::
 struct RefusedMemory : std::bad_alloc {
     const char* what() const noexcept override { return "asks for more memory than there is"; }
 };
+
+using mrpt::serialization::CArchive;
+
+/** A count, then the items as they lie in memory. */
+template <class List>
+CArchive& readAsItComes(CArchive& in, List& list) {
+    constexpr std::size_t most_at_once = std::size_t{1} << 20;
+    const auto count = in.ReadAs<std::uint32_t>();
+    list.clear();
+    while (list.size() < count) {
+        const std::size_t before = list.size(), more = std::min(count - before, most_at_once);
+        list.resize(before + more);
+        in.ReadBufferFixEndianness(&list[before], more);
+    }
+    return in;
+}
 
 /** libjpeg expects not to return from here; it was compiled to let exceptions pass. */
 void throwJpegError(j_common_ptr state) {
@@ -51,6 +71,59 @@ void* mrpt::aligned_malloc(std::size_t size, std::size_t alignment) {
     }
     return memory;
 }
+
+namespace mrpt::serialization {
+using rgbd_graphslam::readAsItComes;
+
+CArchive& operator>>(CArchive& in, std::string& text) {
+    return readAsItComes(in, text);
+}
+CArchive& operator>>(CArchive& in, std::vector<float>& list) {
+    return readAsItComes(in, list);
+}
+CArchive& operator>>(CArchive& in, std::vector<double>& list) {
+    return readAsItComes(in, list);
+}
+CArchive& operator>>(CArchive& in, std::vector<std::int8_t>& list) {
+    return readAsItComes(in, list);
+}
+CArchive& operator>>(CArchive& in, std::vector<std::uint8_t>& list) {
+    return readAsItComes(in, list);
+}
+CArchive& operator>>(CArchive& in, std::vector<std::int16_t>& list) {
+    return readAsItComes(in, list);
+}
+CArchive& operator>>(CArchive& in, std::vector<std::uint16_t>& list) {
+    return readAsItComes(in, list);
+}
+CArchive& operator>>(CArchive& in, std::vector<std::int32_t>& list) {
+    return readAsItComes(in, list);
+}
+CArchive& operator>>(CArchive& in, std::vector<std::uint32_t>& list) {
+    return readAsItComes(in, list);
+}
+CArchive& operator>>(CArchive& in, std::vector<std::int64_t>& list) {
+    return readAsItComes(in, list);
+}
+CArchive& operator>>(CArchive& in, std::vector<std::uint64_t>& list) {
+    return readAsItComes(in, list);
+}
+
+CArchive& operator>>(CArchive& in, std::vector<bool>& list) {
+    std::vector<std::uint8_t> bytes;
+    in >> bytes;
+    list.clear();
+    for (const std::uint8_t byte : bytes) list.push_back(byte != 0);
+    return in;
+}
+
+CArchive& operator>>(CArchive& in, std::vector<std::string>& list) {
+    list.clear();
+    for (auto left = in.ReadAs<std::uint32_t>(); left > 0; --left) in >> list.emplace_back();
+    return in;
+}
+
+}  // namespace mrpt::serialization
 
 extern "C" jpeg_error_mgr* jpeg_std_error(jpeg_error_mgr* errors) {
     using Function = jpeg_error_mgr* (*)(jpeg_error_mgr*);

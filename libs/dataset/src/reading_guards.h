@@ -8,10 +8,13 @@ namespace rgbd_graphslam {
  *  std::bad_alloc. Lengths in a file are taken at their word by MRPT, and memory is filled before
  *  it turns out that the file has no such contents.
  *
- *  Linking this also replaces two functions of the libraries beneath, for the whole process:
- *  mrpt::aligned_malloc, whose callers write to the null it gives where memory is refused, throws
- *  std::bad_alloc instead; and jpeg_std_error, with which libjpeg ends the process at a damaged
- *  image, sets up a std::runtime_error instead (OpenCV goes on to set its own way). */
+ *  Linking this also replaces functions of the libraries beneath, for the whole process:
+ *  - mrpt::aligned_malloc, whose callers write to the null it gives where memory is refused, throws
+ *    std::bad_alloc instead;
+ *  - MRPT's reading of texts and plain lists, which takes as much memory as a length says before it
+ *    looks for the contents, takes it as they come;
+ *  - jpeg_std_error, with which libjpeg ends the process at a damaged image, sets up a
+ *    std::runtime_error instead (OpenCV goes on to set its own way). */
 class MemoryLimit {
   public:
     explicit MemoryLimit(std::size_t most_bytes);

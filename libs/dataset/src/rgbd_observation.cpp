@@ -44,11 +44,7 @@ bool allFinite(const SE3& pose) {
 
 /** What a wrong number would spoil without a word. */
 void checkNumbers(const CObservation3DRangeScan& observation) {
-    const Camera camera = cameraOf(observation);
-    const bool has_focus = camera.fx > 0 && camera.fy > 0 && std::isfinite(camera.fx * camera.fy);
-    if (!has_focus || !std::isfinite(camera.cx + camera.cy)) {
-        refuse(observation, "its calibration has no usable fx, fy, cx, cy");
-    }
+    cameraOf(observation);
     if (!(observation.rangeUnits > 0) || !std::isfinite(observation.rangeUnits)) {
         refuse(observation, "its depth unit is not positive");
     }
@@ -103,7 +99,21 @@ RgbdImage toRgbdImage(const CObservation3DRangeScan::Ptr& observation) {
 }
 
 Camera cameraOf(const CObservation3DRangeScan& observation) {
-    return toCamera(observation.cameraParamsIntensity);
+    constexpr int largest_image_px = 1 << 16;
+    const Camera camera = toCamera(observation.cameraParamsIntensity);
+    const bool has_focus = camera.fx > 0 && camera.fy > 0 && std::isfinite(camera.fx * camera.fy);
+    if (!has_focus || !std::isfinite(camera.cx + camera.cy)) {
+        refuse(observation, "its calibration has no usable fx, fy, cx, cy");
+    }
+    for (const int side : {camera.width, camera.height}) {
+        if (side < 0 || side > largest_image_px) {
+            refuse(observation, "its calibration is for images of an impossible size");
+        }
+    }
+    if (!camera.undoesDistortion()) {
+        refuse(observation, "its calibration has a lens distortion that cannot be undone");
+    }
+    return camera;
 }
 
 SE3 cameraOnRobot(const CObservation3DRangeScan& observation) {

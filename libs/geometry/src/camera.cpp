@@ -33,4 +33,19 @@ Eigen::Vector2d Camera::undistort(const Eigen::Vector2d& seen) const {
     return {fx * n.x() + cx, fy * n.y() + cy};
 }
 
+bool Camera::undoesDistortion() const {
+    constexpr int steps = 16;
+    constexpr double most_off_px = 1;
+    if (!hasDistortion()) return true;
+    for (int row = 0; row <= steps; ++row) {
+        for (int column = 0; column <= steps; ++column) {
+            const Eigen::Vector2d seen((width - 1.0) * column / steps,
+                                       (height - 1.0) * row / steps);
+            const double off_px = (distort(undistort(seen)) - seen).norm();
+            if (!(off_px <= most_off_px)) return false;
+        }
+    }
+    return true;
+}
+
 }  // namespace rgbd_graphslam

@@ -114,6 +114,7 @@ Camera getCamera(ByteReader& in) {
     for (double* d : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *d = getFinite(in);
     for (double& d : camera.distortion) d = getFinite(in);
     if (camera.fx <= 0 || camera.fy <= 0) throw DamagedBytes("a focal length that is not positive");
+    if (!camera.undoesDistortion()) throw DamagedBytes("a lens distortion that cannot be undone");
     return camera;
 }
 

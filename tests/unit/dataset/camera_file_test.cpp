@@ -110,6 +110,8 @@ TEST(CameraFile, mistakesAreNamed) {
                 HasSubstr("fish-eye"));
     EXPECT_THAT(complaintAbout(minimal + "distortion_model = curly\n"),
                 HasSubstr("distortion_model must be"));
+    EXPECT_THAT(complaintAbout(minimal + "dist = [-3 0 0 0 0]\n"),
+                HasSubstr("dist: this distortion cannot be undone in the image"));
     EXPECT_THAT(complaintAbout(minimal + "depth_units = -5\n"), HasSubstr("depth_units"));
     EXPECT_THAT(complaintAbout(minimal + "sensor_pose = [1 2 3]\n"), HasSubstr("sensor_pose"));
     EXPECT_THROW(readCameraFile("/nowhere/camera.ini"), Error);

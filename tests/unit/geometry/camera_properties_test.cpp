@@ -47,6 +47,52 @@ TEST(CameraProperties, distortInvertsUndistortInTheWholeImage) {
     }
 }
 
+TEST(CameraProperties, whatCanBeUndoneIsUndoneInTheWholeImage) {
+    RandomInputs random(7);
+    int undone = 0;
+    for (int i = 0; i < trials; ++i) {
+        Camera camera = random.camera();
+        for (double& d : camera.distortion) d *= random.uniform(0, 4);
+        if (!camera.undoesDistortion()) continue;
+        ++undone;
+        for (int pixel = 0; pixel < 20; ++pixel) {
+            const Eigen::Vector2d seen = randomPixel(camera, random);
+            EXPECT_LT((camera.distort(camera.undistort(seen)) - seen).norm(), 1.1);
+        }
+    }
+    EXPECT_GT(undone, trials / 4);
+    EXPECT_LT(undone, trials);
+}
+
+/** Past a radius at which the distorted one stops growing, two points share a pixel. */
+TEST(CameraProperties, lensesThatFoldTheImageOverCannotBeUndone) {
+    RandomInputs random(6);
+    int folded = 0;
+    for (int i = 0; i < trials; ++i) {
+        Camera camera = random.camera();
+        const double k1 = random.uniform(-4, 0), folds_at = std::sqrt(-1 / (3 * k1));
+        const double farthest = folds_at * (1 + k1 * folds_at * folds_at);
+        camera.distortion = {k1, 0, 0, 0, 0};
+        const Eigen::Vector2d corner(
+            std::max(camera.cx, camera.width - 1 - camera.cx) / camera.fx,
+            std::max(camera.cy, camera.height - 1 - camera.cy) / camera.fy);
+        if (corner.norm() < 1.02 * farthest) continue;
+        ++folded;
+        EXPECT_FALSE(camera.undoesDistortion()) << k1;
+    }
+    EXPECT_GT(folded, trials / 4);
+}
+
+TEST(CameraProperties, aLensOfNoNumbersCannotBeUndone) {
+    for (const double bad : {std::nan(""), double(INFINITY), 1e300}) {
+        for (int k = 0; k < 5; ++k) {
+            Camera camera;
+            camera.distortion[k] = bad;
+            EXPECT_FALSE(camera.undoesDistortion()) << k << " " << bad;
+        }
+    }
+}
+
 TEST(CameraProperties, aPointComesBackThroughTheLens) {
     RandomInputs random(4);
     for (int i = 0; i < trials; ++i) {

@@ -17,10 +17,12 @@ inline constexpr const char* ground_truth_label = "GROUND_TRUTH";
 /** The frame in our terms. Pixels are shared with the observation, which `owner` keeps alive;
  *  images stored outside the rawlog are loaded; the grey image is made here.
  *  \throws Error naming the stamp when colour or depth is absent, unreadable or of different
- *          size, or when ranges are not depths along the optical axis */
+ *          size, when ranges are not depths along the optical axis, or as cameraOf() */
 RgbdImage toRgbdImage(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
 
-/** Calibration of the colour camera. */
+/** Calibration of the colour camera.
+ *  \throws Error naming the stamp when it is none, or of a lens whose distortion cannot be undone
+ */
 Camera cameraOf(const mrpt::obs::CObservation3DRangeScan& observation);
 
 /** Pose of the colour camera's optical frame on the robot's base. */

@@ -23,12 +23,17 @@ struct Camera {
     Eigen::Vector3d unproject(double u, double v, double z) const {
         return {(u - cx) * z / fx, (v - cy) * z / fy, z};
     }
-    /** Undistorted pixel of a pixel as the sensor saw it (fixed-point iteration). */
+    /** Undistorted pixel of a pixel as the sensor saw it (fixed-point iteration); anything, or no
+     *  number, where undoesDistortion() does not hold. */
     Eigen::Vector2d undistort(const Eigen::Vector2d& seen) const;
+    /** Whether undistort() finds its way to within a pixel all over the image; a lens that folds
+     *  the image over, or whose numbers are none, has no inverse. */
+    bool undoesDistortion() const;
     /** Inverse of undistort. */
     Eigen::Vector2d distort(const Eigen::Vector2d& undistorted) const;
     bool contains(const Eigen::Vector2d& pixel) const {
-        return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= width - 1 && pixel.y() <= height - 1;
+        return pixel.x() >= 0 && pixel.y() >= 0 && pixel.x() <= width - 1 &&
+               pixel.y() <= height - 1;
     }
 };
 
