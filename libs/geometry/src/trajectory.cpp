@@ -63,6 +63,11 @@ Trajectory readTumPoses(const std::string& path) {
     return trajectory;
 }
 
+bool anyBetween(const std::vector<double>& stamps_s, double from_s, double to_s) {
+    const auto next = std::upper_bound(stamps_s.begin(), stamps_s.end(), from_s);
+    return next != stamps_s.end() && *next < to_s;
+}
+
 Trajectory readTumTrajectory(const std::string& path) {
     Trajectory trajectory = readTumPoses(path);
     std::stable_sort(trajectory.begin(), trajectory.end(),

@@ -3,10 +3,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "output_texts.h"
-#include "process_usage.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/process_usage.h"
 #include "rgbd_graphslam/core/thread_clock.h"
 #include "rgbd_graphslam/mapping/map_builder.h"
 #include "rgbd_graphslam/report/run_report.h"
@@ -27,6 +27,7 @@ MapInputs mapInputs(const RunState& run) {
     inputs.rawlog = run.job.rawlog;
     inputs.earlier = run.report.earlier;
     inputs.trajectory = run.located();
+    inputs.unplaced_s = run.unplaced();
     inputs.apart = run.report.apart_keyframes;
     for (const KeyframeView& keyframe : run.session.slam().keyframes()) {
         inputs.keyframes.push_back({keyframe.stamp_s, keyframe.T_world_cam});

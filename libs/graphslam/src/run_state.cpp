@@ -54,13 +54,24 @@ std::vector<MapSession> RunState::sessions() const {
     return all;
 }
 
+bool RunState::hasPlace(const TrackedFrame& frame) const {
+    return frame.origin != FrameOrigin::Lost && !apart(frame.part);
+}
+
 Trajectory RunState::located() const {
     Trajectory trajectory;
     for (const TrackedFrame& frame : session.slam().frames()) {
-        if (frame.origin == FrameOrigin::Lost || apart(frame.part)) continue;
-        trajectory.push_back({frame.stamp_s, frame.T_world_cam});
+        if (hasPlace(frame)) trajectory.push_back({frame.stamp_s, frame.T_world_cam});
     }
     return trajectory;
+}
+
+std::vector<double> RunState::unplaced() const {
+    std::vector<double> stamps_s;
+    for (const TrackedFrame& frame : session.slam().frames()) {
+        if (!hasPlace(frame)) stamps_s.push_back(frame.stamp_s);
+    }
+    return stamps_s;
 }
 
 }  // namespace rgbd_graphslam

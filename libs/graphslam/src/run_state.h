@@ -36,8 +36,12 @@ struct RunState {
     std::vector<MapSession> sessions() const;
     /** Whether a part of the map is not the one that is written. */
     bool apart(int map_part) const { return map_part != part; }
-    /** Frames with a known place in the map that is written. */
+    /** Whether where it was seen from is known in the map that is written. */
+    bool hasPlace(const TrackedFrame& frame) const;
+    /** Frames that have a place. */
     Trajectory located() const;
+    /** Stamps of all other frames, rising. */
+    std::vector<double> unplaced() const;
 
     const SlamJob& job;
     std::optional<SparseMap> start;

@@ -1,8 +1,8 @@
 #include "tracking_loop.h"
 
-#include "process_usage.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/process_usage.h"
 #include "rgbd_graphslam/core/progress.h"
 #include "rgbd_graphslam/core/thread_clock.h"
 #include "run_checkpoint.h"

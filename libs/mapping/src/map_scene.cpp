@@ -34,10 +34,13 @@ void addSegment(mrpt::opengl::CSetOfLines& object, const Eigen::Vector3d& a,
     object.appendLine(mrpt::math::TSegment3D(point(a), point(b)));
 }
 
-mrpt::opengl::CSetOfLines::Ptr path(const char* name, const Trajectory& poses, const TColor& color,
+/** \param unplaced_s where it is not drawn, as in MapInputs */
+mrpt::opengl::CSetOfLines::Ptr path(const char* name, const Trajectory& poses,
+                                    const std::vector<double>& unplaced_s, const TColor& color,
                                     float width_px) {
     auto object = lines(name, color, width_px);
     for (std::size_t i = 1; i < poses.size(); ++i) {
+        if (anyBetween(unplaced_s, poses[i - 1].stamp_s, poses[i].stamp_s)) continue;
         addSegment(*object, poses[i - 1].T_world_cam.t, poses[i].T_world_cam.t);
     }
     return object;
@@ -103,11 +106,12 @@ mrpt::opengl::COpenGLScene makeScene(const MapInputs& inputs, const PointMap& po
     scene.getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(background));
     scene.insert(floorGrid(points));
     scene.insert(cloud(points));
-    scene.insert(path(scene_names::trajectory, inputs.trajectory, trajectory_color, 3));
+    scene.insert(
+        path(scene_names::trajectory, inputs.trajectory, inputs.unplaced_s, trajectory_color, 3));
     scene.insert(frustums(inputs.keyframes, camera));
     scene.insert(loopLines(inputs));
-    scene.insert(
-        path(scene_names::graph_before_loops, inputs.keyframes_before_loops, before_color, 2));
+    scene.insert(path(scene_names::graph_before_loops, inputs.keyframes_before_loops,
+                      inputs.unplaced_s, before_color, 2));
     return scene;
 }
 

@@ -97,8 +97,9 @@ void drawPaths(Paper& paper_sheet, const MapInputs& inputs) {
                  cv::LINE_AA);
     }
     for (std::size_t i = 1; i < inputs.trajectory.size(); ++i) {
-        cv::line(picture, at(inputs.trajectory[i - 1]), at(inputs.trajectory[i]), orange, 2,
-                 cv::LINE_AA);
+        const StampedPose &from = inputs.trajectory[i - 1], &to = inputs.trajectory[i];
+        if (anyBetween(inputs.unplaced_s, from.stamp_s, to.stamp_s)) continue;
+        cv::line(picture, at(from), at(to), orange, 2, cv::LINE_AA);
     }
     for (const auto& keyframe : inputs.keyframes)
         cv::circle(picture, at(keyframe), 3, blue, cv::FILLED, cv::LINE_AA);

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "rgbd_graphslam/core/error.h"
 
@@ -51,6 +52,28 @@ std::vector<EarlierSession> earlierSessionsOf(const nlohmann::json& summary) {
     return sessions;
 }
 
+/** Stamps of frames.csv that the trajectory does not have; of a run without that file none. */
+std::vector<double> unplacedFrames(const fs::path& frames_csv, const Trajectory& trajectory) {
+    constexpr double same_s = 1e-6;  // both files round to it
+    std::ifstream in(frames_csv);
+    std::vector<double> stamps_s;
+    auto pose = trajectory.begin();
+    std::string line;
+    std::getline(in, line);
+    for (int number = 2; std::getline(in, line); ++number) {
+        double stamp_s = 0;
+        if (!(std::istringstream(line) >> stamp_s)) {
+            throw Error(
+                frames_csv.string() + ":" + std::to_string(number) + " does not begin with a stamp",
+                "run rgbd-slam again");
+        }
+        while (pose != trajectory.end() && pose->stamp_s < stamp_s - same_s) ++pose;
+        const bool placed = pose != trajectory.end() && pose->stamp_s <= stamp_s + same_s;
+        if (!placed) stamps_s.push_back(stamp_s);
+    }
+    return stamps_s;
+}
+
 }  // namespace
 
 MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
@@ -67,6 +90,7 @@ MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
     MapInputs inputs;
     inputs.keyframes = readTumPoses((root / "keyframes.txt").string());
     inputs.trajectory = readTumTrajectory((root / "trajectory.txt").string());
+    inputs.unplaced_s = unplacedFrames(root / "frames.csv", inputs.trajectory);
     inputs.rawlog = rawlog.empty() ? findRawlog(summary, root) : rawlog;
     try {
         inputs.loops = loopsOf(summary);

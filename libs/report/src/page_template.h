@@ -26,7 +26,7 @@ section.wide { grid-column: 1 / -1; }
 .figures { display: flex; flex-wrap: wrap; gap: 6px 34px; margin-bottom: 16px; }
 .figures div { min-width: 90px; }
 .figures b { display: block; font-size: 22px; font-weight: 600; }
-.figures span, figcaption { color: var(--soft); font-size: 13px; }
+.figures span, figcaption, .note { color: var(--soft); font-size: 13px; }
 ul.findings { list-style: none; margin: 0; padding: 0; }
 ul.findings li { padding: 5px 10px; margin: 4px 0; border-left: 4px solid var(--line);
                  background: var(--ground); overflow-wrap: anywhere; }
@@ -34,6 +34,7 @@ ul.findings li.warning { border-color: #d98a00; background: #fff6e2; }
 ul.findings li.good { border-color: #2d9a57; background: #eaf7ef; }
 img { max-width: 100%; height: auto; display: block; }
 figure { margin: 0 0 10px; }
+.note { margin: 8px 0 10px; }
 .grid-picture img { image-rendering: pixelated; width: 100%; max-height: 520px; object-fit: contain; }
 svg { width: 100%; height: auto; display: block; }
 svg text { font-size: 11px; fill: var(--soft); }
@@ -47,6 +48,7 @@ table { border-collapse: collapse; width: 100%; font-size: 13px; font-variant-nu
 th { text-align: right; color: var(--soft); font-weight: normal; }
 td { text-align: right; padding: 2px 0 2px 10px; }
 th:first-child, td:first-child { text-align: left; padding-left: 0; white-space: nowrap; }
+tr.false td { color: var(--loop); font-weight: 600; }
 td.bar { width: 34%; }
 td.bar i { display: block; height: 11px; background: var(--after); border-radius: 2px; min-width: 1px; }
 </style>

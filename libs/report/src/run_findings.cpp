@@ -108,6 +108,12 @@ class Findings {
             largest_m = std::max(
                 largest_m, (before[i].T_world_cam.t - run_.keyframes[i].T_world_cam.t).norm());
         }
+        if (const std::size_t wrong = run_.false_loops.value_or(0); wrong > 0) {
+            warn(formatted(
+                "%zu of %zu loops %s false: the truth says that the places %s not the same", wrong,
+                run_.loops.size(), wrong == 1 ? "is" : "are",
+                wrong == 1 ? "it joins are" : "they join are"));
+        }
         note(std::to_string(run_.loops.size()) + (run_.loops.size() == 1 ? " loop" : " loops") +
              formatted(" closed; compared with tracking alone keyframes are up to %.2f m elsewhere",
                        largest_m));

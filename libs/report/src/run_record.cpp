@@ -75,6 +75,12 @@ std::vector<StageRecord> stagesOf(const Json& stages) {
     return records;
 }
 
+/** Runs of earlier versions have none. */
+std::optional<double> loopErrorOf(const Json& edge) {
+    if (edge.size() < 4 || edge.at(3).is_null()) return std::nullopt;
+    return edge.at(3).get<double>();
+}
+
 void readFigures(const Json& summary, RunRecord& run) {
     run.rawlog = textOf(summary, "rawlog");
     run.version = textOf(summary, "version");
@@ -91,9 +97,11 @@ void readFigures(const Json& summary, RunRecord& run) {
     run.maps_wall_s = summary.at("maps_wall_s");
     run.peak_memory_mb = summary.at("peak_memory_mb");
     run.stages = stagesOf(summary.at("stages"));
-    for (const Json& edge : summary.at("loop_edges")) {  // with or without its error behind
-        run.loops.push_back({edge.at(0), edge.at(1), edge.at(2)});
+    for (const Json& edge : summary.at("loop_edges")) {
+        run.loops.push_back({edge.at(0), edge.at(1), edge.at(2), loopErrorOf(edge)});
     }
+    const Json false_loops = summary.value("false_loops", Json());
+    if (!false_loops.is_null()) run.false_loops = false_loops.get<std::size_t>();
 }
 
 void readSummary(const fs::path& path, RunRecord& run) {

@@ -9,7 +9,8 @@
 #include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/report/html.h"
 #include "rgbd_graphslam/report/run_findings.h"
-#include "rgbd_graphslam/report/svg_chart.h"
+#include "run_charts.h"
+#include "run_tables.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -30,37 +31,9 @@ std::string figure(const std::string& picture, const std::string& caption,
            htmlEscaped(caption) + "</figcaption></figure>\n";
 }
 
-/** Every n-th pose, where there are more than a chart can show. */
-Trajectory thinned(const Trajectory& poses) {
-    constexpr std::size_t most = 3000;
-    const std::size_t step = poses.size() / most + 1;
-    Trajectory some;
-    for (std::size_t i = 0; i < poses.size(); i += step) some.push_back(poses[i]);
-    return some;
-}
-
-ChartLine pathOf(const std::string& name, const std::string& css_class, const Trajectory& poses) {
-    ChartLine line{name, css_class, {}};
-    for (const StampedPose& pose : thinned(poses)) {
-        line.points.push_back(pose.T_world_cam.t.head<2>());
-    }
-    return line;
-}
-
-/** Cuts a line wherever a lost frame lies between two of its points, so that nothing is drawn that
- *  nobody saw. Only the first piece keeps the name.
- *  \param seconds of each point, since the first frame */
-std::vector<ChartLine> withoutGaps(const ChartLine& line, const std::vector<double>& seconds,
-                                   const std::vector<LostSpan>& lost) {
-    std::vector<ChartLine> pieces{{line.name, line.css_class, {}}};
-    auto gap = lost.begin();
-    for (std::size_t i = 0; i < line.points.size(); ++i) {
-        bool cut = false;
-        for (; gap != lost.end() && gap->first_s < seconds[i]; ++gap) cut = true;
-        if (cut && i > 0) pieces.push_back({"", line.css_class, {}});
-        pieces.back().points.push_back(line.points[i]);
-    }
-    return pieces;
+/** \param text plain */
+std::string note(const std::string& text) {
+    return "<p class=\"note\">" + htmlEscaped(text) + "</p>\n";
 }
 
 std::optional<AteResult> ateOf(const RunRecord& run) {
@@ -129,10 +102,12 @@ class Page {
 
     std::string sections() const {
         return section("Map from above", mapPicture()) +
-               section("Obstacles and free space", grid()) + section("Path from above", path()) +
-               section("Before and after loops", loops()) + section("Error over time", errors()) +
-               section("Tracked landmarks", landmarks()) + section("Time by stage", stages()) +
-               section("Keyframes", keyframes(), "wide");
+               section("Obstacles and free space", grid()) +
+               section("Path from above", pathChart(run_)) +
+               section("Before and after loops", loops()) +
+               section("Error over time", ate_ ? errorChart(run_, *ate_) : std::string()) +
+               section("Tracked landmarks", landmarkChart(run_)) +
+               section("Time by stage", stages()) + section("Keyframes", keyframes(), "wide");
     }
 
     std::string mapPicture() const {
@@ -145,87 +120,15 @@ class Page {
                       "Obstacles black, free white, unseen grey.", "grid-picture");
     }
 
-    std::string path() const {
-        const auto lost = lostSpans(run_.frames);
-        std::vector<ChartLine> lines;
-        const auto add = [&](const char* name, const char* css_class, const Trajectory& poses) {
-            ChartLine line{name, css_class, {}};
-            std::vector<double> seconds;
-            for (const StampedPose& pose : thinned(poses)) {
-                line.points.push_back(pose.T_world_cam.t.head<2>());
-                seconds.push_back(pose.stamp_s - run_.start_s);
-            }
-            const auto pieces = withoutGaps(line, seconds, lost);
-            lines.insert(lines.end(), pieces.begin(), pieces.end());
-        };
-        add("truth", "truth", run_.truth);
-        add("estimate", "estimate", run_.trajectory);
-        return planChart(lines);
-    }
-
     std::string loops() const {
         if (run_.loops.empty()) return {};
-        std::vector<ChartLine> lines{
-            pathOf("keyframes by tracking alone", "before", run_.keyframes_before_loops),
-            pathOf("keyframes with loops", "after", run_.keyframes)};
-        for (const LoopRecord& loop : run_.loops) {
-            const auto at = [&](int i) -> Eigen::Vector2d {
-                return run_.keyframes[static_cast<std::size_t>(i)].T_world_cam.t.head<2>();
-            };
-            const bool first = &loop == &run_.loops.front();
-            lines.push_back({first ? "loop" : "", "loop", {at(loop.from), at(loop.to)}});
-        }
-        return planChart(lines);
+        return loopChart(run_) + note(loopSummary(run_)) + loopTable(run_);
     }
 
-    std::string errors() const {
-        if (!ate_) return {};
-        ChartLine line{"", "value", {}};
-        std::vector<double> seconds;
-        for (const AtePair& pair : ate_->pairs) {
-            seconds.push_back(pair.stamp_s - run_.start_s);
-            line.points.emplace_back(seconds.back(), 1e3 * pair.error_m().norm());
-        }
-        return timeChart(withoutGaps(line, seconds, lostSpans(run_.frames)),
-                         "distance to the true place, mm");
-    }
-
-    std::string landmarks() const {
-        ChartLine line{"", "value", {}};
-        for (const FrameRecord& frame : run_.frames) {
-            line.points.emplace_back(frame.seconds, frame.inliers);
-        }
-        std::vector<std::pair<double, double>> lost;
-        for (const LostSpan& span : lostSpans(run_.frames)) {
-            lost.emplace_back(span.first_s, span.last_s);
-        }
-        return timeChart({line},
-                         lost.empty() ? "landmarks a frame" : "landmarks a frame; lost: red", lost);
-    }
-
-    /** Bars tell the stage's share of all CPU time. */
     std::string stages() const {
-        double all_ms = 1e-9;
-        for (const StageRecord& stage : run_.stages) all_ms += totalMs(stage);
-        std::string html =
-            "<table><tr><th>stage</th><th>calls</th><th>mean</th><th>median</th><th>95 %</th>"
-            "<th>max</th><th></th></tr>\n";
-        for (const StageRecord& stage : run_.stages) {
-            html += "<tr><td>" + htmlEscaped(stage.name) + "</td>" +
-                    formatted(
-                        "<td>%zu</td><td>%.2f</td><td>%.2f</td><td>%.2f</td><td>%.1f</td>"
-                        "<td class=\"bar\"><i style=\"width:%.1f%%\"></i></td></tr>\n",
-                        stage.calls, stage.mean_ms, stage.median_ms, stage.p95_ms, stage.max_ms,
-                        100 * totalMs(stage) / all_ms);
-        }
-        return html + "</table>" +
-               figure(" ",
-                      formatted("CPU ms a call; bars are shares of the whole. Dense maps: %.1f s.",
-                                run_.maps_wall_s));
-    }
-
-    static double totalMs(const StageRecord& stage) {
-        return stage.mean_ms * static_cast<double>(stage.calls);
+        return stageTable(run_) +
+               note(formatted("CPU ms a call; bars are shares of the whole. Dense maps: %.1f s.",
+                              run_.maps_wall_s));
     }
 
     std::string keyframes() const {

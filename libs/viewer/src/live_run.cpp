@@ -63,6 +63,9 @@ void LiveRun::take(const LiveMessage& message) {
 void LiveRun::takeFrame(const LiveFrame& frame) {
     frame_ = frame;
     statistics_.insert(statistics_.end(), frame.statistics.begin(), frame.statistics.end());
+    for (const LiveStatistic& statistic : frame.statistics) {
+        if (statistic.lost) run_.unplaced_s.push_back(statistic.stamp_s);
+    }
     if (!frame.lost) run_.trajectory.push_back({frame.stamp_s, frame.T_world_cam});
     if (frame.keyframe < 0) return;
     const LiveImages images = imagesOf(frame);
@@ -76,6 +79,7 @@ void LiveRun::takeFrame(const LiveFrame& frame) {
 }
 
 void LiveRun::takeMap(const LiveMap& map) {
+    ++revisions_;
     run_.trajectory = map.path;
     run_.keyframes = map.keyframes;
     run_.loops = edgesOf(map.loops);

@@ -10,14 +10,14 @@
 namespace rgbd_graphslam {
 namespace {
 
-const nanogui::Color tracked_color(60, 220, 90, 255), new_color(70, 150, 255, 255),
-    lost_color(255, 60, 60, 255);
+constexpr Rgba tracked_color = {60, 220, 90, 255}, new_color = {70, 150, 255, 255},
+               lost_color = {255, 60, 60, 255};
 
 cv::Mat3b decoded(const std::vector<unsigned char>& jpeg) {
     return jpeg.empty() ? cv::Mat3b() : cv::Mat3b(cv::imdecode(jpeg, cv::IMREAD_COLOR));
 }
 
-const nanogui::Color& colorOf(FeatureState state) {
+const Rgba& colorOf(FeatureState state) {
     switch (state) {
         case FeatureState::Tracked:
             return tracked_color;
@@ -70,7 +70,7 @@ void showRunPlots(PlotPanel& panel, const RunScene& scene, bool all_read) {
     for (const FrameNote& frame : scene.run().frames) {
         landmarks.push_back(frame.lost ? NAN : static_cast<float>(frame.inliers));
     }
-    panel.landmarks().show(std::move(landmarks));
+    panel.landmarks().show(landmarks);
     panel.times().show(scene.run().frame_times_ms);
     panel.errors().name(scene.truth() ? "error" : without_truth, " cm");
     panel.errors().show(scene.truth() ? errorsCm(*scene.truth()) : std::vector<float>());
@@ -91,8 +91,8 @@ void showLivePlots(PlotPanel& panel, const std::vector<LiveStatistic>& statistic
         landmarks.push_back(statistic.lost ? NAN : static_cast<float>(statistic.inliers));
         times_ms.push_back(statistic.frame_ms);
     }
-    panel.landmarks().show(std::move(landmarks));
-    panel.times().show(std::move(times_ms));
+    panel.landmarks().show(landmarks);
+    panel.times().show(times_ms);
     panel.errors().name("error: known when the run has ended", "");
 }
 

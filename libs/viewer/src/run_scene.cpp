@@ -38,6 +38,7 @@ std::size_t verticesUntil(const List& list, std::optional<double> stamp_s) {
 
 void RunScene::show(RunData run) {
     run_ = std::move(run);
+    live_revision_.reset();
     lowest_ceiling_m_ = lowest_ceiling_m;
     box_ = boxOf(run_);
     truth_.reset();
@@ -55,20 +56,38 @@ void RunScene::show(RunData run) {
 }
 
 void RunScene::showPoses() {
-    renderer_.setLines(Part::Path, pathLines(run_.trajectory, trajectory_color));
+    renderer_.setLines(Part::Path, pathLines(run_.trajectory, run_.unplaced_s, trajectory_color));
     renderer_.setLines(Part::Loops, edgeLines(run_.keyframes, run_.loops, loop_color));
     renderer_.setLines(Part::Covisibility,
                        edgeLines(run_.keyframes, run_.covisibility, covisibility_color));
-    renderer_.setLines(Part::BeforeLoops, pathLines(run_.keyframes_before_loops, before_color));
+    renderer_.setLines(Part::BeforeLoops,
+                       pathLines(run_.keyframes_before_loops, run_.unplaced_s, before_color));
     setCamera(camera_);
 }
 
 void RunScene::update(const LiveRun& live) {
+    if (live_revision_ == live.revisions()) return extendPath(live.run());
+    live_revision_ = live.revisions();
     run_ = live.run();
     lowest_ceiling_m_ = lowest_live_ceiling_m;
     if (live.lastFrame()) camera_ = live.lastFrame()->camera;
     for (const StampedPose& pose : run_.trajectory) box_.extend(pose.T_world_cam.t);
     showPoses();
+}
+
+/** \param longer what run_ was, with new poses behind */
+void RunScene::extendPath(const RunData& longer) {
+    const std::size_t old = run_.trajectory.size();
+    run_.unplaced_s = longer.unplaced_s;
+    run_.trajectory.insert(run_.trajectory.end(),
+                           longer.trajectory.begin() + static_cast<std::ptrdiff_t>(old),
+                           longer.trajectory.end());
+    const std::size_t joint = std::max<std::size_t>(old, 1) - 1;  // the last pose drawn so far
+    const Trajectory added(run_.trajectory.begin() + static_cast<std::ptrdiff_t>(joint),
+                           run_.trajectory.end());
+    for (const StampedPose& pose : added) box_.extend(pose.T_world_cam.t);
+    renderer_.extendLines(Part::Path, 2 * joint,
+                          pathLines(added, run_.unplaced_s, trajectory_color));
 }
 
 void RunScene::showClouds(const std::vector<std::pair<std::size_t, Vertices>>& clouds) {
@@ -103,7 +122,7 @@ void RunScene::add(RecordingLoader::News news) {
     }
     if (!news.truth) return;
     truth_ = std::move(news.truth);
-    renderer_.setLines(Part::TruePath, pathLines(truth_->poses, truth_color));
+    renderer_.setLines(Part::TruePath, pathLines(truth_->poses, {}, truth_color));
     std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> pairs;
     for (const auto& error : truth_->errors) pairs.emplace_back(error.estimate, error.truth);
     renderer_.setLines(Part::Errors, pairLines(pairs, error_color));

@@ -42,11 +42,13 @@ class RunScene {
 
   private:
     void showPoses();
+    void extendPath(const RunData& longer);
     double frustumDepth() const;
     void setCamera(const Camera& camera);
 
     SceneRenderer& renderer_;
     RunData run_;
+    std::optional<std::size_t> live_revision_;
     Eigen::AlignedBox3d box_;
     Camera camera_;
     std::optional<TrueTrajectory> truth_;

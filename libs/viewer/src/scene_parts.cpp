@@ -136,10 +136,12 @@ float quantile(std::vector<float>& values, double share) {
 
 }  // namespace
 
-Vertices pathLines(const Trajectory& poses, const Rgba& color) {
+Vertices pathLines(const Trajectory& poses, const std::vector<double>& unplaced_s,
+                   const Rgba& color) {
     Vertices lines;
     for (std::size_t i = 1; i < poses.size(); ++i) {
-        addLine(lines, poses[i - 1].T_world_cam.t, poses[i].T_world_cam.t, color);
+        const bool gap = anyBetween(unplaced_s, poses[i - 1].stamp_s, poses[i].stamp_s);
+        addLine(lines, poses[gap ? i : i - 1].T_world_cam.t, poses[i].T_world_cam.t, color);
     }
     return lines;
 }

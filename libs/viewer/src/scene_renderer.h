@@ -58,6 +58,10 @@ class SceneRenderer {
     SceneRenderer();
 
     void setLines(Part part, const Vertices& lines) { buffer(part).set(lines); }
+    /** Takes the place of what is there from vertex `first` on. */
+    void extendLines(Part part, std::size_t first, const Vertices& lines) {
+        buffer(part).write(first, lines);
+    }
     void setTriangles(Part part, const Vertices& triangles) { buffer(part).set(triangles); }
     /** Occupied and free cells. \param faces one list a direction, as outerFaces() makes them */
     void setOctree(const std::array<Vertices, 6>& faces) { occupied_.set(faces); }

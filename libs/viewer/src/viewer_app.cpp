@@ -1,16 +1,17 @@
 #include "rgbd_graphslam/viewer/viewer_app.h"
 
+#include <sched.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
 #include <cstdlib>
-#include <ctime>
 #include <filesystem>
 #include <fstream>
 
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/formatted.h"
+#include "rgbd_graphslam/core/process_usage.h"
 #include "viewer_window.h"
 
 namespace rgbd_graphslam {
@@ -49,6 +50,8 @@ nanogui::ref<ViewerWindow> makeWindow(const ViewerSettings& settings, const std:
 void stepBack() {
     constexpr int lowest_priority = 19;
     ::setpriority(PRIO_PROCESS, 0, lowest_priority);
+    const sched_param none{};
+    ::sched_setscheduler(0, SCHED_IDLE, &none);  // makes room at once when another process wakes up
     // Linux weighs whole sessions against each other first. One that is shared with rgbd-slam must
     // not be slowed, so this needs a session of its own.
     if (::getsid(0) == ::getpid() || ::setsid() > 0)
@@ -58,9 +61,9 @@ void stepBack() {
 
 void reportSpeed(ViewerWindow& window, double seconds) {
     window.spin(0.3 * seconds);  // until the number of points has adapted
-    const std::clock_t cpu_before = std::clock();
+    const double cpu_before_s = processCpuSeconds();
     const double rate = window.spin(seconds);
-    const double cpu_s = static_cast<double>(std::clock() - cpu_before) / CLOCKS_PER_SEC;
+    const double cpu_s = processCpuSeconds() - cpu_before_s;
     sayInfo(formatted("%zu points, %zu in a moving picture, %.1f pictures/s, %.1f ms CPU a picture",
                       window.points(), window.pointsDrawn(), rate, 1e3 * cpu_s / (rate * seconds)));
 }

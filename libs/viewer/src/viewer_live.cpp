@@ -4,18 +4,22 @@
 #include "panel_contents.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/formatted.h"
+#include "rgbd_graphslam/core/process_usage.h"
 #include "viewer_window.h"
 
 namespace rgbd_graphslam {
 namespace {
 
 constexpr double first_distance_m = 7, first_elevation_rad = 0.8;
+/** Of one processor, since the run may need it. The mouse is not held up by this. */
+constexpr double live_cpu_share = 0.04;
 
 }  // namespace
 
 void ViewerWindow::follow(const std::string& folder, std::filesystem::file_time_type since) {
     live_ = std::make_unique<LiveRun>(folder, since);
     live_folder_ = folder;
+    live_budget_ = CpuBudget(live_cpu_share, processCpuSeconds());
     follow_camera_ = true;
     camera_.distance_m = first_distance_m;
     camera_.elevation_rad = first_elevation_rad;
@@ -29,15 +33,7 @@ void ViewerWindow::takeLive() {
     if (!live_) return;
     live_is_new_ |= live_->update();
     if (live_->state() == LiveRun::State::Ended) return endLive();
-    if (live_is_new_ && live_->lastFrame() && Clock::now() >= next_live_picture_) showLive();
-}
-
-/** Pictures are drawn so rarely that drawing takes little of the time, since the run may need the
- *  processor; the mouse is not held up by this. \param start of the last picture's drawing */
-void ViewerWindow::restAfterDrawing(Clock::time_point start) {
-    constexpr int rest = 9;
-    const auto now = Clock::now();
-    next_live_picture_ = now + rest * (now - start);
+    if (live_is_new_ && live_->lastFrame() && live_budget_.allows(Clock::now())) showLive();
 }
 
 void ViewerWindow::showLive() {

@@ -9,6 +9,7 @@
 
 #include "panel_contents.h"
 #include "rgbd_graphslam/core/atomic_file.h"
+#include "rgbd_graphslam/core/process_usage.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -73,7 +74,6 @@ bool ViewerWindow::settled() const {
 }
 
 double ViewerWindow::update() {
-    const auto start = Clock::now();
     takeLive();
     takeRecording();
     advanceReplay();
@@ -88,7 +88,7 @@ double ViewerWindow::update() {
     panels_changed_ |= mLastInteraction != last_drawn_interaction_ && !mouse_.pressed();
     if (panels_changed_ || picture_changed_) {
         drawAll();
-        restAfterDrawing(start);
+        live_budget_.spent(Clock::now(), processCpuSeconds());
     }
     if (live_) return reading_wait_s;
     if (replay_.playing() || !renderer_->complete()) return busy_wait_s;

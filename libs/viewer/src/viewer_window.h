@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "panel_set.h"
+#include "rgbd_graphslam/viewer/cpu_budget.h"
 #include "rgbd_graphslam/viewer/live_run.h"
 #include "rgbd_graphslam/viewer/measuring.h"
 #include "rgbd_graphslam/viewer/mouse_gesture.h"
@@ -103,7 +104,6 @@ class ViewerWindow : public nanogui::Screen {
     void takeLive();
     void showLive();
     void endLive();
-    void restAfterDrawing(Clock::time_point start);
 
     ViewerSettings settings_;
     std::vector<Shortcut> shortcuts_;
@@ -116,7 +116,7 @@ class ViewerWindow : public nanogui::Screen {
     std::unique_ptr<LiveRun> live_;  // while a run is followed
     std::string live_folder_;
     bool live_is_new_ = false;  // something to show has come
-    Clock::time_point next_live_picture_;
+    CpuBudget live_budget_{1, 0};
 
     OrbitCamera camera_;
     MouseGesture mouse_;

@@ -5,15 +5,18 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "rgbd_graphslam/viewer/plot_curve.h"
 
 namespace rgbd_graphslam {
 namespace {
 
-constexpr float mark_radius_px = 1.6f, margin_px = 4, text_px = 14;
+constexpr float margin_px = 4, text_px = 14;
 
-const nanogui::Color paper(25, 28, 34, 255), curve_color(90, 200, 250, 255),
-    cursor_color(255, 170, 60, 255), text_color(225, 228, 232, 255);
+constexpr Rgba paper_rgba = {25, 28, 34, 255};
+const nanogui::Color paper(paper_rgba[0], paper_rgba[1], paper_rgba[2], paper_rgba[3]),
+    curve_color(90, 200, 250, 255), cursor_color(255, 170, 60, 255), text_color(225, 228, 232, 255);
 
 void fillRectangle(NVGcontext* context, const nanogui::Vector2i& corner,
                    const nanogui::Vector2i& size, const NVGpaint& paint) {
@@ -46,44 +49,57 @@ PictureWidget::PictureWidget(nanogui::Widget* parent, const nanogui::Vector2i& s
 
 void PictureWidget::show(const cv::Mat3b& image, const std::string& text_without) {
     text_ = text_without;
-    rgba_.release();
-    if (!image.empty()) cv::cvtColor(image, rgba_, cv::COLOR_BGR2RGBA);
+    image_ = image;
     is_new_ = true;
 }
 
+void PictureWidget::mark(std::vector<PictureMark> marks) {
+    marks_ = std::move(marks);
+    is_new_ = true;
+}
+
+void PictureWidget::showMarks(bool show) {
+    marks_shown_ = show;
+    is_new_ = true;
+}
+
+/** In the window's own pixels, which need no interpolation. */
 void PictureWidget::upload(NVGcontext* context) {
+    const float scale = screen()->pixelRatio();
+    const cv::Size size_px(cvRound(scale * static_cast<float>(mSize.x())),
+                           cvRound(scale * static_cast<float>(mSize.y())));
+    if (!is_new_ && size_px == uploaded_px_) return;
     is_new_ = false;
-    if (handle_ != 0 && rgba_.size() == uploaded_size_) {
-        nvgUpdateImage(context, handle_, rgba_.data);
+    const cv::Mat4b rgba = fittedPicture(image_, marks_shown_ ? marks_ : std::vector<PictureMark>(),
+                                         size_px, paper_rgba);
+    if (handle_ != 0 && size_px == uploaded_px_) {
+        nvgUpdateImage(context, handle_, rgba.data);
         return;
     }
     if (handle_ != 0) nvgDeleteImage(context, handle_);
-    handle_ = nvgCreateImageRGBA(context, rgba_.cols, rgba_.rows, 0, rgba_.data);
-    uploaded_size_ = rgba_.size();
+    handle_ = nvgCreateImageRGBA(context, rgba.cols, rgba.rows, NVG_IMAGE_NEAREST, rgba.data);
+    uploaded_px_ = size_px;
 }
 
 void PictureWidget::draw(NVGcontext* context) {
     const float w = static_cast<float>(mSize.x()), h = static_cast<float>(mSize.y());
     const float x = static_cast<float>(mPos.x()), y = static_cast<float>(mPos.y());
-    if (rgba_.empty()) {
+    if (image_.empty()) {
         fillRectangle(context, mPos, mSize, paper);
         write(context, x + w / 2, y + h / 2, NVG_ALIGN_CENTER | NVG_ALIGN_MIDDLE, text_);
         return;
     }
-    if (is_new_) upload(context);
+    upload(context);
     fillRectangle(context, mPos, mSize, nvgImagePattern(context, x, y, w, h, 0, handle_, 1));
-    if (!marks_shown_) return;
-    for (const PictureMark& mark : marks_) {
-        nvgBeginPath(context);
-        nvgRect(context, x + w * mark.x - mark_radius_px, y + h * mark.y - mark_radius_px,
-                2 * mark_radius_px, 2 * mark_radius_px);
-        nvgFillColor(context, mark.color);
-        nvgFill(context);
-    }
 }
 
 PlotWidget::PlotWidget(nanogui::Widget* parent, const nanogui::Vector2i& size_px)
     : nanogui::Widget(parent), wanted_px_(size_px) {}
+
+void PlotWidget::show(const std::vector<float>& values) {
+    last_ = values.empty() ? NAN : values.back();
+    values_ = thinnedCurve(values, 2 * static_cast<std::size_t>(wanted_px_.x()));
+}
 
 void PlotWidget::name(const std::string& title, const std::string& unit) {
     title_ = title;
@@ -140,9 +156,7 @@ void PlotWidget::drawTexts(NVGcontext* context, float low, float high) {
     write(context, left, top, NVG_ALIGN_LEFT | NVG_ALIGN_TOP, title_);
     if (high <= low) return;
     std::string text = "max " + number(high);
-    if (!values_.empty() && std::isfinite(values_.back())) {
-        text = number(values_.back()) + ", " + text;
-    }
+    if (std::isfinite(last_)) text = number(last_) + ", " + text;
     write(context, right, top, NVG_ALIGN_RIGHT | NVG_ALIGN_TOP, text);
 }
 

@@ -2,27 +2,24 @@
 #pragma once
 #include <nanogui/nanogui.h>
 
+#include <cmath>
 #include <opencv2/core/mat.hpp>
 #include <string>
 #include <vector>
 
+#include "rgbd_graphslam/viewer/marked_picture.h"
+
 namespace rgbd_graphslam {
 
-/** A point marked in a picture. */
-struct PictureMark {
-    float x = 0, y = 0;  // share of width and height, 0 to 1
-    nanogui::Color color;
-};
-
-/** An image with marks, as wide as the widget is. */
+/** An image with marks. */
 class PictureWidget : public nanogui::Widget {
   public:
     PictureWidget(nanogui::Widget* parent, const nanogui::Vector2i& size_px);
 
     /** \param image BGR; empty shows the text instead */
     void show(const cv::Mat3b& image, const std::string& text_without);
-    void mark(std::vector<PictureMark> marks) { marks_ = std::move(marks); }
-    void showMarks(bool show) { marks_shown_ = show; }
+    void mark(std::vector<PictureMark> marks);
+    void showMarks(bool show);
 
     nanogui::Vector2i preferredSize(NVGcontext*) const override { return wanted_px_; }
     void draw(NVGcontext* context) override;
@@ -31,11 +28,11 @@ class PictureWidget : public nanogui::Widget {
     void upload(NVGcontext* context);
 
     nanogui::Vector2i wanted_px_;
-    cv::Mat rgba_;
+    cv::Mat3b image_;
     std::string text_;
     bool is_new_ = false, marks_shown_ = true;
     int handle_ = 0;
-    cv::Size uploaded_size_;
+    cv::Size uploaded_px_;
     std::vector<PictureMark> marks_;
 };
 
@@ -46,7 +43,7 @@ class PlotWidget : public nanogui::Widget {
 
     void name(const std::string& title, const std::string& unit);
     /** \param values evenly over the plot's width; NaN leaves a gap */
-    void show(std::vector<float> values) { values_ = std::move(values); }
+    void show(const std::vector<float>& values);
     /** \param share of the width where the cursor stands; outside [0, 1] hides it */
     void setCursor(float share) { cursor_ = share; }
 
@@ -60,7 +57,8 @@ class PlotWidget : public nanogui::Widget {
 
     nanogui::Vector2i wanted_px_;
     std::string title_, unit_;
-    std::vector<float> values_;
+    std::vector<float> values_;  // thinned
+    float last_ = NAN;
     float cursor_ = -1;
 };
 

@@ -32,5 +32,15 @@ TEST(PoseAt, isNothingOutsideAndInGaps) {
     EXPECT_FALSE(poseAt({}, 1));
 }
 
+TEST(AnyBetween, countsNeitherEnd) {
+    const std::vector<double> lost = {1, 2.5, 7};
+    EXPECT_TRUE(anyBetween(lost, 2, 3));
+    EXPECT_TRUE(anyBetween(lost, 0, 100));
+    EXPECT_FALSE(anyBetween(lost, 1, 2.5));
+    EXPECT_FALSE(anyBetween(lost, 3, 6));
+    EXPECT_FALSE(anyBetween(lost, 7, 9));
+    EXPECT_FALSE(anyBetween({}, 0, 9));
+}
+
 }  // namespace
 }  // namespace rgbd_graphslam

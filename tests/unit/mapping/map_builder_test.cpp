@@ -1,4 +1,5 @@
 #include "rgbd_graphslam/mapping/map_builder.h"
+#include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/mapping/level_survey.h"
 
 #include <gmock/gmock.h>
@@ -301,6 +302,20 @@ TEST_F(RunFolder, loopsMayCarryTheirError) {
     ASSERT_EQ(read.loops.size(), 2u);
     EXPECT_EQ(read.loops[0].inliers, 40);
     EXPECT_EQ(read.loops[1].from, 1);
+}
+
+TEST_F(RunFolder, framesWithoutPoseAreKnown) {
+    EXPECT_TRUE(readRunFolder(folder_.string(), "").unplaced_s.empty());  // there is no such file
+    const double first_s = inputs_.trajectory.front().stamp_s;
+    std::string frames = "stamp_s,origin,inliers,keyframe,part\n";
+    frames += formatted("%.6f,tracked,80,0,0\n%.6f,lost,0,,\n", first_s, first_s + 0.01);
+    writeTextAtomically(path("frames.csv"), frames);
+    const auto unplaced_s = readRunFolder(folder_.string(), "").unplaced_s;
+    ASSERT_EQ(unplaced_s.size(), 1u);
+    EXPECT_NEAR(unplaced_s[0], first_s + 0.01, 1e-6);
+    writeTextAtomically(path("frames.csv"), frames + "oops\n");
+    EXPECT_THAT(problemOf([&] { readRunFolder(folder_.string(), ""); }),
+                testing::HasSubstr("frames.csv:4"));
 }
 
 TEST_F(RunFolder, optionsAreReadPastOtherSections) {

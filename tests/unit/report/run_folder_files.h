@@ -14,7 +14,8 @@ struct MadeRun {
     int first_lost = 0, end_lost = 0;  // frames [first_lost, end_lost)
     double depth_factor = 1;           // of the estimate's positions against the truth
     bool with_truth = true, with_maps = true, with_loop = true;
-    std::string warnings = "[]";  // JSON
+    // JSON
+    std::string warnings = "[]", loop_edges = "[[0, 5, 40, 0.01]]", false_loops = "0";
 };
 
 constexpr double made_start_s = 1000;
@@ -33,7 +34,8 @@ inline std::string summaryText(const MadeRun& run) {
            run.rawlog +
            "\", \"interrupted\": false, \"damage\": null, \"warnings\": " + run.warnings +
            ", \"out_of_order\": 0, \"culled_keyframes\": 0, \"landmarks\": 700, " +
-           "\"loop_edges\": " + (run.with_loop ? "[[0, 5, 40, 0.01]]" : "[]") +
+           "\"loop_edges\": " + (run.with_loop ? run.loop_edges : "[]") +
+           ", \"false_loops\": " + run.false_loops +
            ", \"path_m\": 12, \"frames_per_s\": 90, \"cpu_ms_a_frame\": 7, \"maps_wall_s\": 2, " +
            "\"peak_memory_mb\": 200, \"stages\": {\"track\": {\"calls\": 60, \"cpu_ms\": " +
            figures + ", \"wall_ms\": " + figures + "}}}";

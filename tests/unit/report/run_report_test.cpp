@@ -55,6 +55,33 @@ TEST(RunReport, drawsNothingAcrossLostFrames) {
     EXPECT_EQ(pieces(run), 2);
 }
 
+TEST(RunReport, showsTheWorstLoopsAndMarksFalseOnes) {
+    MadeRun run;
+    run.loop_edges = "[[0, 5, 40, 0.012], [1, 5, 33, 0.7], [1, 4, 21, null]]";
+    run.false_loops = "1";
+    const std::string page = reportOf(run);
+    const auto worst = page.find(
+        "<tr class=\"false\"><td>1 and 5</td><td>1.0 s and 5.0 s</td>"
+        "<td>33</td><td>700.0 mm, false</td></tr>");
+    const auto good = page.find(
+        "<tr><td>0 and 5</td><td>0.0 s and 5.0 s</td><td>40</td>"
+        "<td>12.0 mm</td></tr>");
+    ASSERT_NE(worst, std::string::npos);
+    EXPECT_GT(good, worst);
+    EXPECT_LT(good, page.find("<td>1 and 4</td>"));
+    EXPECT_THAT(page, HasSubstr("2 of 3 are off by 356.0 mm in the median, 700.0 mm at most"));
+    EXPECT_THAT(page, HasSubstr("1 of 3 loops is false"));
+}
+
+TEST(RunReport, saysThatLoopsCannotBeCheckedWithoutTruth) {
+    MadeRun run;
+    run.loop_edges = "[[0, 5, 40]]";  // as earlier versions wrote it
+    run.false_loops = "null";
+    const std::string page = reportOf(run);
+    EXPECT_THAT(page, HasSubstr("Without ground truth the loops cannot be checked."));
+    EXPECT_THAT(page, HasSubstr("<td>not known</td>"));
+}
+
 TEST(RunReport, needsNoOtherFile) {
     const std::string page = reportOf({});
     const std::regex reference("(src|href|url)\\s*[=(]\\s*\"?([^\"> ]{0,5})");

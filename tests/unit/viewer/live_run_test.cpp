@@ -67,6 +67,18 @@ TEST(LiveRun, framesExtendThePathAndThePlots) {
     EXPECT_EQ(live.run().trajectory.size(), 1U);
     EXPECT_EQ(live.statistics().size(), 3U);
     EXPECT_TRUE(live.lastFrame()->lost);
+    EXPECT_EQ(live.run().unplaced_s, std::vector<double>{2});
+}
+
+TEST(LiveRun, betweenMapsOnlyTheTrajectoryGrows) {
+    LiveRun live("");
+    live.take(mapWith(0, 1));
+    const std::size_t revision = live.revisions();
+    live.take(keyframe(2, 3, 2));
+    EXPECT_EQ(live.revisions(), revision);
+    EXPECT_EQ(live.run().trajectory.size(), 3U);
+    live.take(mapWith(0, 1.1));
+    EXPECT_NE(live.revisions(), revision);
 }
 
 TEST(LiveRun, cloudsFollowTheirKeyframes) {

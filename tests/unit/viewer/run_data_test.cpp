@@ -22,7 +22,7 @@ class RunFolder : public testing::Test {
         write("keyframes.txt", toTumText(poses(3)));
         write("summary.json",
               R"({"rawlog": "gone.rawlog", "loop_edges": [[2, 0, 40], [9, 0, 1]]})");
-        write("frames.csv", "stamp_s,origin,inliers,keyframe\n1.0,tracked,80,0\n2.0,lost,0,\n");
+        write("frames.csv", "stamp_s,origin,inliers,keyframe\n1.0,tracked,80,0\n3.5,lost,0,\n");
         write("frame_times.csv", "stamp_s,wall_ms\n1.0,6.5\n2.0,30\n");
         write("covisibility.csv", "from,to,landmarks\n0,2,30\n0,1,20\n");
     }
@@ -62,6 +62,7 @@ TEST_F(RunFolder, isReadWithoutItsRecordingAndMaps) {
     ASSERT_EQ(run.frames.size(), 2U);
     EXPECT_EQ(run.frames[0].inliers, 80);
     EXPECT_TRUE(run.frames[1].lost);
+    EXPECT_EQ(run.unplaced_s, std::vector<double>{3.5});
     EXPECT_EQ(run.frame_times_ms, (std::vector<float>{6.5f, 30}));
 }
 

@@ -23,13 +23,21 @@ std::size_t verticesOf(const std::array<Vertices, 6>& faces) {
 }
 
 TEST(PathLines, joinConsecutivePoses) {
-    const Vertices lines = pathLines(alongX(3), red);
+    const Vertices lines = pathLines(alongX(3), {}, red);
     ASSERT_EQ(lines.size(), 4U);
     EXPECT_EQ(lines[1].position, lines[2].position);
     EXPECT_FLOAT_EQ(lines[3].position.x(), 1);
     EXPECT_EQ(lines[0].color, red);
-    EXPECT_TRUE(pathLines(alongX(1), red).empty());
-    EXPECT_TRUE(pathLines({}, red).empty());
+    EXPECT_TRUE(pathLines(alongX(1), {}, red).empty());
+    EXPECT_TRUE(pathLines({}, {}, red).empty());
+}
+
+TEST(PathLines, haveNoLengthAcrossLostFrames) {
+    const Vertices lines = pathLines(alongX(4), {0.15}, red);  // poses at 0, 0.1, 0.2 and 0.3 s
+    ASSERT_EQ(lines.size(), 6U);
+    EXPECT_NE(lines[0].position, lines[1].position);
+    EXPECT_EQ(lines[2].position, lines[3].position);
+    EXPECT_NE(lines[4].position, lines[5].position);
 }
 
 TEST(FrustumLines, openTowardsWhatTheCameraSees) {

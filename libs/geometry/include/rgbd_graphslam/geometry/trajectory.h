@@ -22,6 +22,10 @@ using Trajectory = std::vector<StampedPose>;
 std::optional<SE3> poseAt(const Trajectory& trajectory, double stamp_s,
                           double longest_gap_s = std::numeric_limits<double>::infinity());
 
+/** Whether one of the stamps lies between two moments. A path is not drawn across such a gap:
+ * nobody saw how the camera went. \param stamps_s rising, of frames that have no pose */
+bool anyBetween(const std::vector<double>& stamps_s, double from_s, double to_s);
+
 /** Reads `stamp tx ty tz qx qy qz qw` lines (seconds, metres, unit quaternion), the format of the
  *  TUM RGB-D benchmark; commas and tabs separate as blanks do, `#` starts a comment. Rows with NaN
  *  are left out as TUM's tools do.

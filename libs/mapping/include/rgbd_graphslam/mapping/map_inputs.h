@@ -25,6 +25,8 @@ struct MapInputs {
     Trajectory keyframes;  // the maps are made of these; in order of time within a session
     /** Every frame; places depth images between colour stamps, and accelerometer readings. */
     Trajectory trajectory;
+    /** Stamps of the frames that have no pose, rising; paths are not drawn across them. */
+    std::vector<double> unplaced_s;
     std::vector<MapLoopEdge> loops;
     /** Keyframes as they were without loops; may be empty. */
     Trajectory keyframes_before_loops;

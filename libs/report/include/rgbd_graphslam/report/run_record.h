@@ -28,6 +28,8 @@ struct StageRecord {
 struct LoopRecord {
     int from = 0, to = 0;  // keyframes
     int inliers = 0;
+    /** Of the measured place of one camera from the other against the truth, where it is known. */
+    std::optional<double> error_m;
 };
 
 struct RunRecord {
@@ -41,6 +43,8 @@ struct RunRecord {
     std::vector<FrameRecord> frames;
     std::vector<StageRecord> stages;
     std::vector<LoopRecord> loops;
+    /** How many have an error that only a wrong place explains; nothing without truth. */
+    std::optional<std::size_t> false_loops;
 
     /** Camera poses in the map's frame, z up. */
     Trajectory trajectory, keyframes;

@@ -30,6 +30,8 @@ class LiveRun {
 
     /** Poses, loops and frames so far; no maps. */
     const RunData& run() const { return run_; }
+    /** How often everything may have moved; in between only the trajectory grows. */
+    std::size_t revisions() const { return revisions_; }
     const std::optional<LiveFrame>& lastFrame() const { return frame_; }
     const std::vector<LiveStatistic>& statistics() const { return statistics_; }
 
@@ -55,6 +57,7 @@ class LiveRun {
     LiveClient client_;
     State state_ = State::Waiting;
     RunData run_;
+    std::size_t revisions_ = 0;
     std::optional<LiveFrame> frame_;
     std::vector<LiveStatistic> statistics_;
     std::vector<std::optional<Cloud>> clouds_;  // one a keyframe

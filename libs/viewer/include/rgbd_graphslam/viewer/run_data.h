@@ -47,6 +47,8 @@ struct RunData {
     std::string folder;
     std::string rawlog;  // empty when it is gone
     Trajectory trajectory, keyframes, keyframes_before_loops;
+    /** Stamps of frames without a pose, rising. */
+    std::vector<double> unplaced_s;
     /** Each list by the later of the two keyframes, so that a replay shows a prefix. */
     std::vector<KeyframeEdge> loops, covisibility;
     std::vector<FrameNote> frames;

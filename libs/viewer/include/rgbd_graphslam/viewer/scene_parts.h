@@ -11,8 +11,10 @@
 
 namespace rgbd_graphslam {
 
-/** Two vertices a line: n - 1 lines for n poses. */
-Vertices pathLines(const Trajectory& poses, const Rgba& color);
+/** Two vertices a line: n - 1 lines for n poses.
+ *  \param unplaced_s stamps of frames without a pose, rising; a line across one has no length */
+Vertices pathLines(const Trajectory& poses, const std::vector<double>& unplaced_s,
+                   const Rgba& color);
 
 /** Vertices of one frustum: lines from the eye to the corners, and round the picture. */
 inline constexpr std::size_t vertices_a_frustum = 16;

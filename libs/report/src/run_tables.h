@@ -1,0 +1,18 @@
+/** Tables of a run, as HTML. Each is nothing where there is nothing to show. */
+#pragma once
+#include <string>
+
+#include "rgbd_graphslam/report/run_record.h"
+
+namespace rgbd_graphslam {
+
+/** The loops with the largest errors, or the first ones where the truth is not known. */
+std::string loopTable(const RunRecord& run);
+
+/** What the loops' errors come to, in a sentence of plain text. */
+std::string loopSummary(const RunRecord& run);
+
+/** CPU time by stage; bars tell the stage's share of all of it. */
+std::string stageTable(const RunRecord& run);
+
+}  // namespace rgbd_graphslam
