@@ -6,6 +6,7 @@
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/mapping/level_survey.h"
 #include "rgbd_graphslam/mapping/run_folder.h"
+#include "rgbd_graphslam/mapping/scan_rawlog.h"
 #include "rgbd_graphslam/report/run_report.h"
 
 using namespace rgbd_graphslam;
@@ -14,7 +15,7 @@ namespace {
 
 struct Arguments {
     std::string folder, rawlog, destination;
-    double octree_m = 0, grid_m = 0, points_m = 0, z_min_m = 0, z_max_m = 0;
+    double octree_m = 0, grid_m = 0, points_m = 0, z_min_m = 0, z_max_m = 0, scans_per_s = 0;
     std::vector<std::string> settings;
     bool upright = false;
 };
@@ -37,12 +38,13 @@ MapOptions optionsOf(const CLI::App& app, const Arguments& arguments) {
     return options;
 }
 
-void print(const MapSummary& summary, const std::string& folder) {
+void print(const MapSummary& summary, std::size_t scans, const std::string& folder) {
     std::printf(
         "keyframes      %zu\npoints         %zu\noctree leaves  %zu\ngrid           %d x %d "
         "cells\n",
         summary.keyframes, summary.points, summary.octree_leaves, summary.grid_width,
         summary.grid_height);
+    if (scans > 0) std::printf("scans          %zu\n", scans);
     std::printf(
         "a keyframe     %.1f ms CPU\nmemory         %.1f MB: points %.1f, octree %.1f\n"
         "maps in        %s\n",
@@ -71,6 +73,10 @@ int main(int argc, char** argv) {
     app.add_option("-o,--output", arguments.destination, "Folder for the maps (default: OUT)");
     app.add_flag("--upright", arguments.upright,
                  "Turn the poses upright first: for trajectories that are not of rgbd-slam");
+    app.add_option("--scans", arguments.scans_per_s,
+                   "Also write scans.rawlog for MRPT's pf-localization: level scans made of the "
+                   "depth images, at most so many a second, and odometry made of the trajectory")
+        ->check(CLI::PositiveNumber);
     declareCommonOptions(app);
     return runProgram(app, argc, argv, [&] {
         const MapOptions options = optionsOf(app, arguments);
@@ -79,10 +85,13 @@ int main(int argc, char** argv) {
         MapInputs inputs = readRunFolder(arguments.folder, arguments.rawlog);
         if (arguments.upright) inputs = transformed(uprightFromWorld(inputs, options), inputs);
         const MapSummary summary = writeMaps(inputs, options, folder);
+        std::size_t scans = 0;
+        if (arguments.scans_per_s > 0)
+            scans = writeScans(inputs, options, arguments.scans_per_s, folder + "/scans.rawlog");
         if (std::filesystem::exists(arguments.folder + "/report.html")) {
             writeRunReport(arguments.folder, folder);
         }
-        if (verbosity() != Verbosity::Quiet) print(summary, folder);
+        if (verbosity() != Verbosity::Quiet) print(summary, scans, folder);
         return 0;
     });
 }

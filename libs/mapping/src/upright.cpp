@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "rgbd_graphslam/mapping/simple_map.h"
+#include "rgbd_graphslam/mapping/level_scan.h"
 
 namespace rgbd_graphslam {
 namespace {

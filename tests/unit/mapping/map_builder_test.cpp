@@ -11,6 +11,7 @@
 #include <mrpt/obs/CObservation2DRangeScan.h>
 #include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/opengl/COpenGLScene.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
@@ -25,12 +26,14 @@
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/depth_stamps.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
+#include "rgbd_graphslam/dataset/rawlog_reader.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/mapping/keyframe_reader.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 #include "rgbd_graphslam/mapping/map_scene.h"
 #include "rgbd_graphslam/mapping/run_folder.h"
+#include "rgbd_graphslam/mapping/scan_rawlog.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -257,6 +260,29 @@ TEST_F(MapBuilder, simpleMapMakesTheSameWallsIn2dAnd3d) {
     }
     EXPECT_GT(obstacles, 100);
     EXPECT_LT(misplaced, 0.05 * obstacles);
+}
+
+TEST_F(MapBuilder, scansComeWithTheOdometryOfTheirBase) {
+    writeWalk(false);
+    const MapInputs upright = transformed(T_world_room.inverse(), inputs_);
+    EXPECT_EQ(writeScans(upright, MapOptions(), 5, path("few.rawlog")), 4u);
+    EXPECT_EQ(writeScans(upright, MapOptions(), 100, path("all.rawlog")), 8u);
+    RawlogReader rawlog(path("all.rawlog"));
+    EXPECT_TRUE(std::dynamic_pointer_cast<mrpt::obs::CObservationComment>(rawlog.next()));
+    for (const StampedPose& pose : upright.trajectory) {
+        const auto odometry =
+            std::dynamic_pointer_cast<mrpt::obs::CObservationOdometry>(rawlog.next());
+        const auto scan =
+            std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(rawlog.next());
+        ASSERT_TRUE(odometry && scan);
+        EXPECT_NEAR(toSeconds(odometry->timestamp), pose.stamp_s, 1e-6);
+        EXPECT_NEAR(toSeconds(scan->timestamp), pose.stamp_s, 1e-6);
+        const Eigen::Vector3d forward = pose.T_world_cam.R.col(2);
+        EXPECT_NEAR(odometry->odometry.x(), pose.T_world_cam.t.x(), 1e-6);
+        EXPECT_NEAR(odometry->odometry.y(), pose.T_world_cam.t.y(), 1e-6);
+        EXPECT_NEAR(odometry->odometry.phi(), std::atan2(forward.y(), forward.x()), 1e-6);
+    }
+    EXPECT_EQ(rawlog.next(), nullptr);
 }
 
 TEST_F(MapBuilder, mistakesInTheInputsAreNamed) {

@@ -8,14 +8,9 @@
 
 namespace rgbd_graphslam {
 
-/** The pose on the floor below an upright camera that looks where it looks: x, y and yaw only.
- *  2-D maps and particle filters of MRPT need their robot there. */
-SE3 basePose(const SE3& T_up_cam);
-
 /** Adds a keyframe: its base pose, and two observations from there: the depth image as the
- *  3-D points of a CObservation3DRangeScan, one a leaf of the octree, and as a level laser scan of
- * the nearest obstacle between z_min_m and z_max_m in each direction. Directions without an
- * obstacle are marked invalid. */
+ *  3-D points of a CObservation3DRangeScan, one a leaf of the octree, and as a level laser scan,
+ * see levelScan. */
 void addKeyframe(mrpt::maps::CSimpleMap& map, double stamp_s, const SE3& T_up_cam,
                  const DepthView& view, const MapOptions& options);
 
