@@ -86,6 +86,7 @@ std::vector<std::string> binarySeeds(const std::string& target) {
         writeSparseMap(path, smallMap());
         return {readText(path).substr(sparse_map_header_bytes)};
     }
+    if (target == "checkpoint") return checkpointSeeds();
     if (target == "binary_octree") {
         saveBinaryOcTree(path, smallTree<octomap::OcTree>());
         return {readText(path)};

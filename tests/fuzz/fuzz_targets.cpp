@@ -107,14 +107,12 @@ void fuzzColorOcTree(const std::string& bytes) {
 }
 
 const std::vector<NamedTarget>& fuzzTargets() {
-    static const std::vector<NamedTarget> targets = {{"tum_list", fuzzTumList},
-                                                     {"ini", fuzzIni},
-                                                     {"camera_ini", fuzzCameraIni},
-                                                     {"trajectory", fuzzTrajectory},
-                                                     {"rawlog", fuzzRawlog},
-                                                     {"sparse_map", fuzzSparseMap},
-                                                     {"binary_octree", fuzzBinaryOcTree},
-                                                     {"color_octree", fuzzColorOcTree}};
+    static const std::vector<NamedTarget> targets = {
+        {"tum_list", fuzzTumList},        {"ini", fuzzIni},
+        {"camera_ini", fuzzCameraIni},    {"trajectory", fuzzTrajectory},
+        {"rawlog", fuzzRawlog},           {"sparse_map", fuzzSparseMap},
+        {"checkpoint", fuzzCheckpoint},   {"binary_octree", fuzzBinaryOcTree},
+        {"color_octree", fuzzColorOcTree}};
     return targets;
 }
 

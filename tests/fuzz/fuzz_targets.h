@@ -17,6 +17,8 @@ void fuzzTrajectory(const std::string& bytes);
 void fuzzRawlog(const std::string& bytes);
 /** The bytes are a map.sparse behind its check sum, which would keep all others out. */
 void fuzzSparseMap(const std::string& bytes);
+/** The bytes are the state in a checkpoint; a run that takes it up goes on to its end. */
+void fuzzCheckpoint(const std::string& bytes);
 void fuzzBinaryOcTree(const std::string& bytes);
 void fuzzColorOcTree(const std::string& bytes);
 
@@ -27,6 +29,12 @@ struct NamedTarget {
 
 /** All of them, by the names of their corpora. */
 const std::vector<NamedTarget>& fuzzTargets();
+
+/** States of a run after a few frames, and after more. */
+std::vector<std::string> checkpointSeeds();
+/** \return the state of a run that has taken up `state` and saved it
+ *  \throws Error when it makes no sense */
+std::string goneOnAndSaved(const std::string& state);
 
 /** Small valid inputs of a target whose files are not text. \throws Error for another name */
 std::vector<std::string> binarySeeds(const std::string& target);

@@ -10,7 +10,8 @@ int main(int argc, char** argv) {
         std::fputs("usage: make_seeds FOLDER\n", stderr);
         return 2;
     }
-    for (const std::string target : {"rawlog", "sparse_map", "binary_octree", "color_octree"}) {
+    for (const std::string target :
+         {"rawlog", "sparse_map", "checkpoint", "binary_octree", "color_octree"}) {
         const std::filesystem::path folder = std::filesystem::path(argv[1]) / target;
         std::filesystem::create_directories(folder);
         int number = 0;

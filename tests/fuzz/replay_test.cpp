@@ -2,6 +2,9 @@
  *  a fuzzer: runs with any compiler. */
 #include <gtest/gtest.h>
 
+#include <random>
+
+#include "../../libs/graphslam/src/checkpoint.h"
 #include "../support/tum_folder.h"
 #include "fuzz_targets.h"
 
@@ -54,6 +57,31 @@ TEST_P(FuzzReplay, oneByteChangedAnywhere) {
             }
         });
     }
+}
+
+/** Others with --gtest_random_seed. */
+TEST_P(FuzzReplay, someBytesChangedAtRandom) {
+    std::mt19937 random(static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()));
+    for (const std::string& seed : seedsOf(GetParam().name)) {
+        for (std::size_t i = 0; i < places; ++i) {
+            std::string changed = seed;
+            for (auto changes = 1 + random() % 4; changes > 0; --changes) {
+                changed[random() % changed.size()] = static_cast<char>(random());
+            }
+            EXPECT_NO_THROW(GetParam().run(changed)) << "round " << i;
+        }
+    }
+}
+
+/** What is written now must be read by what is called the same format, in this build and the next.
+ */
+TEST(CheckpointFormat, stateOfThisFormatIsReadAndWrittenTheSame) {
+    const std::string name = "format-" + std::to_string(Checkpoint::format);
+    const fs::path file = fs::path(RGBD_SOURCE_DIR) / "tests/fuzz/corpus/checkpoint" / name;
+    const std::string state = readText(file.string());
+    ASSERT_FALSE(state.empty()) << "see tests/fuzz/README.md for how to make " << file;
+    EXPECT_TRUE(goneOnAndSaved(state) == state)
+        << "the layout of checkpoints has changed: raise Checkpoint::format";
 }
 
 INSTANTIATE_TEST_SUITE_P(Corpora, FuzzReplay, testing::ValuesIn(fuzzTargets()),

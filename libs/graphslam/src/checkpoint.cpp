@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 namespace {
 
 const FileKind checkpoint_file{"RGBDCKP\n",
-                               1,
+                               Checkpoint::format,
                                "checkpoint",
                                "there is nothing to go on from, run it from the start",
                                "run it from the start",

@@ -17,6 +17,9 @@ struct RawlogMark {
 RawlogMark markOf(const std::string& rawlog);
 
 struct Checkpoint {
+    /** Of the file and of `state`; `fuzz_replay` holds a state of it. */
+    static constexpr std::uint32_t format = 1;
+
     /** Where it came to; its settings and its rawlog are the run's. */
     SlamJob job;
     RawlogMark rawlog;

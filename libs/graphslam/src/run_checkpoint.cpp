@@ -51,6 +51,12 @@ void load(ByteReader& in, RunState& run) {
         run.start->sessions = decodeSessions(in);
     }
     run.session.load(in);
+    const std::size_t keyframes = run.session.slam().keyframes().size();
+    if (run.T_previous_keyframe.size() != keyframes) {
+        throw DamagedBytes("motions of keyframes that are not there");
+    }
+    requireInOrder(run.sessions(), keyframes);
+    if (in.left() > 0) throw DamagedBytes("there is more than a state");
 }
 
 void readOver(RunState& run) {
@@ -74,19 +80,27 @@ void readOver(RunState& run) {
 
 }  // namespace
 
-void writeCheckpoint(const RunState& run, CheckpointWriter& writer) {
-    const ThreadClock clock;
+std::string encodeRun(const RunState& run) {
     ByteWriter out;
     save(run, out);
-    sayDetail("checkpoint: " + std::to_string(out.bytes().size() / 1000) + " kB in " +
+    return out.take();
+}
+
+void writeCheckpoint(const RunState& run, CheckpointWriter& writer) {
+    const ThreadClock clock;
+    std::string state = encodeRun(run);
+    sayDetail("checkpoint: " + std::to_string(state.size() / 1000) + " kB in " +
               std::to_string(clock.cpuMs()) + " ms");
-    writer.write(run.T_previous_keyframe.size(), out.take());
+    writer.write(run.T_previous_keyframe.size(), std::move(state));
 }
 
 void goOnFromCheckpoint(RunState& run) {
-    const Checkpoint checkpoint = readCheckpoint(run.job.out_folder);
+    goOnFrom(readCheckpoint(run.job.out_folder).state, run);
+}
+
+void goOnFrom(const std::string& state, RunState& run) {
     try {
-        ByteReader in(checkpoint.state);
+        ByteReader in(state);
         load(in, run);
     } catch (const DamagedBytes& e) {
         throw Error("the checkpoint in '" + run.job.out_folder + "' makes no sense: " + e.what(),

@@ -19,14 +19,7 @@ SparseMap decode(ByteReader& in) {
     map.T_up_world = decodePose(in);
     map.sessions = decodeSessions(in);
     map.snapshot = decodeSnapshot(in);
-    int earliest = 0;
-    for (const MapSession& session : map.sessions) {
-        if (session.first_keyframe < earliest) throw DamagedBytes("sessions that are not in order");
-        earliest = session.first_keyframe;
-    }
-    if (earliest > static_cast<int>(map.snapshot.keyframes.size())) {
-        throw DamagedBytes("a session that begins after the last keyframe");
-    }
+    requireInOrder(map.sessions, map.snapshot.keyframes.size());
     return map;
 }
 
@@ -47,6 +40,17 @@ std::vector<MapSession> decodeSessions(ByteReader& in) {
         session.first_keyframe = in.get<std::int32_t>();
     }
     return sessions;
+}
+
+void requireInOrder(const std::vector<MapSession>& sessions, std::size_t keyframes) {
+    int earliest = 0;
+    for (const MapSession& session : sessions) {
+        if (session.first_keyframe < earliest) throw DamagedBytes("sessions that are not in order");
+        earliest = session.first_keyframe;
+    }
+    if (earliest > static_cast<std::int64_t>(keyframes)) {
+        throw DamagedBytes("a session that begins after the last keyframe");
+    }
 }
 
 void writeSparseMap(const std::string& path, const SparseMap& map) {

@@ -4,6 +4,11 @@
 #include "rgbd_graphslam/slam/map_encoding.h"
 
 namespace rgbd_graphslam {
+namespace {
+
+constexpr std::size_t most_iterations = 1000;
+
+}  // namespace
 
 FullAdjuster::FullAdjuster(const SlamOptions& options, const Camera& camera, SlamMap& map)
     : options_(options), camera_(camera), map_(map) {}
@@ -59,7 +64,7 @@ void FullAdjuster::save(ByteWriter& out) const {
 
 void FullAdjuster::load(ByteReader& in) {
     if (!getFlag(in)) return;
-    iterations_ = static_cast<int>(in.get<std::uint32_t>());
+    iterations_ = getIndex(in, most_iterations + 1, "number of iterations");
     begun_.emplace(in, map_, camera_);
     solveInBackground(*begun_);
 }

@@ -31,6 +31,8 @@ KeptFrame getRecord(ByteReader& in, std::size_t keyframes) {
     record.reference_keyframe = getIndex(in, std::max<std::size_t>(1, keyframes), "keyframe");
     record.T_cam_reference = decodePose(in);
     const auto keyframe = in.get<std::int32_t>();
+    if (keyframe >= static_cast<std::int64_t>(keyframes))
+        throw DamagedBytes("a frame of no keyframe");
     if (keyframe >= 0) record.keyframe = keyframe;
     return record;
 }

@@ -81,7 +81,7 @@ void LoopCloser::save(ByteWriter& out) const {
 }
 
 void LoopCloser::load(ByteReader& in) {
-    index_.load(in);
+    index_.load(in, map_.keyframes().size());
     plausibility_.load(in);
     forgotten_ = getIndex(in, map_.culled().size() + 1, "culled keyframe");
     const std::size_t loops = in.getCount(edge_bytes);

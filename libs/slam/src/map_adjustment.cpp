@@ -126,6 +126,7 @@ MapAdjustment::MapAdjustment(ByteReader& in, const SlamMap& map, const Camera& c
     keyframes_in_map_ = getIndex(in, map.keyframes().size() + 1, "number of keyframes");
     problem.camera = camera;
     problem.free_cameras = getIndex(in, keyframes_.size() + 1, "number of free keyframes");
+    if (problem.free_cameras == 0) throw DamagedBytes("an adjustment of nothing");
     for (std::size_t c = 0; c < keyframes_.size(); ++c) {
         problem.T_cam_world.push_back(decodePose(in));
     }

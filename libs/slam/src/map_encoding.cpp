@@ -15,6 +15,17 @@ void put(const Eigen::Vector3d& v, ByteWriter& out) {
     for (int i = 0; i < 3; ++i) out.put(v[i]);
 }
 
+std::vector<int> getNumbers(ByteReader& in, int first, std::size_t end) {
+    std::vector<int> numbers(in.getCount(sizeof(std::int32_t)));
+    for (int& number : numbers) {
+        number = in.get<std::int32_t>();
+        if (number < first || number >= static_cast<std::int64_t>(end)) {
+            throw DamagedBytes("a number of nothing");
+        }
+    }
+    return numbers;
+}
+
 Eigen::Vector3d getVector(ByteReader& in) {
     Eigen::Vector3d v;
     for (int i = 0; i < 3; ++i) v[i] = getFinite(in);
@@ -58,14 +69,18 @@ void putNumbers(const std::vector<int>& numbers, ByteWriter& out) {
 }
 
 std::vector<int> getNumbers(ByteReader& in, std::size_t end) {
-    std::vector<int> numbers(in.getCount(sizeof(std::int32_t)));
-    for (int& number : numbers) {
-        number = in.get<std::int32_t>();
-        if (number < -1 || number >= static_cast<std::int64_t>(end)) {
-            throw DamagedBytes("a number of nothing");
-        }
-    }
-    return numbers;
+    return getNumbers(in, 0, end);
+}
+
+std::vector<int> getLandmarks(ByteReader& in, std::size_t end) {
+    return getNumbers(in, no_landmark, end);
+}
+
+int getTally(ByteReader& in) {
+    constexpr int most = 1 << 30;
+    const auto tally = in.get<std::int32_t>();
+    if (tally < 0 || tally > most) throw DamagedBytes("an impossible count");
+    return tally;
 }
 
 void encodePose(const SE3& pose, ByteWriter& out) {
@@ -210,8 +225,8 @@ Landmark getLandmark(ByteReader& in, int id, std::vector<Keyframe>& keyframes) {
     if (landmark.level0_distance <= 0) throw DamagedBytes("a distance that is not positive");
     landmark.descriptor = getDescriptor(in);
     landmark.first_keyframe = getIndex(in, keyframes.size(), "keyframe");
-    landmark.times_expected = in.get<std::int32_t>();
-    landmark.times_found = in.get<std::int32_t>();
+    landmark.times_expected = getTally(in);
+    landmark.times_found = getTally(in);
     landmark.observations.resize(in.getCount(observation_bytes));
     if (landmark.observations.empty()) throw DamagedBytes("a landmark that nobody has seen");
     int last = -1;

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <future>
 #include <iterator>
-#include <optional>
 
 #include "popcount.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
@@ -72,6 +71,10 @@ struct PlaceIndex::Tree {
         int child[2] = {-1, -1};
         std::size_t splits_at = leaf_capacity;
         std::vector<Entry> entries;
+        /** Entries of erased keyframes that were there when this was saved; they only count. */
+        std::size_t forgotten = 0;
+
+        std::size_t size() const { return entries.size() + forgotten; }
     };
     explicit Tree(int first) : first_bit(first), nodes(1) {}
 
@@ -85,9 +88,10 @@ struct PlaceIndex::Tree {
         const int leaf = leafOf(entry.descriptor);
         auto& entries = nodes[leaf].entries;
         entries.push_back(entry);
-        if (entries.size() <= nodes[leaf].splits_at) return;
-        const auto forgotten = [&](const Entry& e) { return erased[e.keyframe] != 0; };
-        entries.erase(std::remove_if(entries.begin(), entries.end(), forgotten), entries.end());
+        if (nodes[leaf].size() <= nodes[leaf].splits_at) return;
+        const auto is_erased = [&](const Entry& e) { return erased[e.keyframe] != 0; };
+        entries.erase(std::remove_if(entries.begin(), entries.end(), is_erased), entries.end());
+        nodes[leaf].forgotten = 0;
         if (entries.size() > nodes[leaf].splits_at) split(leaf);
     }
 
@@ -134,13 +138,13 @@ struct PlaceIndex::Tree {
                 continue;
             }
             out.putCount(node.splits_at);
-            out.putCount(std::count_if(node.entries.begin(), node.entries.end(),
+            out.putCount(node.forgotten +
+                         std::count_if(node.entries.begin(), node.entries.end(),
                                        [&](const Entry& e) { return erased[e.keyframe] != 0; }));
         }
     }
 
-    /** \param forgotten stands for all entries that are */
-    void loadShape(ByteReader& in, const std::optional<Entry>& forgotten) {
+    void loadShape(ByteReader& in) {
         nodes.resize(in.getCount(least_node_bytes));
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             Node& node = nodes[i];
@@ -153,11 +157,8 @@ struct PlaceIndex::Tree {
                 continue;
             }
             node.splits_at = in.get<std::uint32_t>();
-            const auto count = in.get<std::uint32_t>();
-            if (count > node.splits_at || (count > 0 && !forgotten)) {
-                throw DamagedBytes("a leaf with too much");
-            }
-            if (count > 0) node.entries.assign(count, *forgotten);
+            node.forgotten = in.get<std::uint32_t>();
+            if (node.forgotten > node.splits_at) throw DamagedBytes("a leaf with too much");
         }
         if (nodes.empty()) throw DamagedBytes("a tree without a root");
     }
@@ -210,15 +211,11 @@ void PlaceIndex::save(ByteWriter& out) const {
     }
 }
 
-void PlaceIndex::load(ByteReader& in) {
+void PlaceIndex::load(ByteReader& in, std::size_t keyframes) {
     erased_.resize(in.getCount(1));
+    if (erased_.size() > keyframes) throw DamagedBytes("places of keyframes that are not there");
     for (char& erased : erased_) erased = getFlag(in);
-    const auto first_erased = std::find(erased_.begin(), erased_.end(), true);
-    std::optional<Entry> forgotten;
-    if (first_erased != erased_.end()) {
-        forgotten = Entry{{}, static_cast<int>(first_erased - erased_.begin())};
-    }
-    for (auto& tree : trees_) tree->loadShape(in, forgotten);
+    for (auto& tree : trees_) tree->loadShape(in);
     const std::size_t known = in.getCount(sizeof(Descriptor) + sizeof(std::uint32_t));
     for (std::size_t i = 0; i < known; ++i) {
         const Descriptor descriptor = getDescriptor(in);

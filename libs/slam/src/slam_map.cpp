@@ -12,9 +12,13 @@ namespace {
  *  outlives the next keyframe. */
 constexpr std::size_t keyframes_of_rest = 2;
 
-/** Culled keyframes hang on others, which may be culled, but in the end on a living one. */
-void checkParents(const std::vector<Keyframe>& keyframes) {
+/** Culled keyframes see nothing, and hang on others, which may be culled, but in the end on a
+ * living one. */
+void checkCulled(const std::vector<Keyframe>& keyframes) {
     for (const Keyframe& keyframe : keyframes) {
+        if (keyframe.culled && !keyframe.landmarks.empty()) {
+            throw DamagedBytes("a culled keyframe that sees something");
+        }
         std::size_t links = 0;
         for (const Keyframe* k = &keyframe; k->culled; k = &keyframes[k->parent]) {
             if (++links > keyframes.size()) throw DamagedBytes("keyframes that hang on themselves");
@@ -56,7 +60,7 @@ void SlamMap::load(ByteReader& in, const Camera& camera) {
     for (std::size_t id = 0; id < keyframes; ++id) {
         keyframes_.push_back(getKeyframe(in, static_cast<int>(id), keyframes, camera, levels()));
     }
-    checkParents(keyframes_);
+    checkCulled(keyframes_);
     votes_.assign(keyframes, 0);
     landmarks_.resize(in.getCount(1));
     for (std::size_t id = 0; id < landmarks_.size(); ++id) {
@@ -65,12 +69,24 @@ void SlamMap::load(ByteReader& in, const Camera& camera) {
         landmarks_[id] = getLandmark(in, static_cast<int>(id), keyframes_);
         ++alive_;
     }
+    loadDead(in);
+    culled_ = getNumbers(in, keyframes);
+    for (const int keyframe : culled_) {
+        if (!keyframes_[keyframe].culled) throw DamagedBytes("a living keyframe among the culled");
+    }
+}
+
+/** Each dead landmark is named once: its number will be given to another. */
+void SlamMap::loadDead(ByteReader& in) {
     const std::size_t dead = in.getCount(2 * sizeof(std::uint32_t));
+    std::vector<char> named(landmarks_.size(), 0);
     for (std::size_t i = 0; i < dead; ++i) {
         const int landmark = getIndex(in, landmarks_.size(), "landmark");
+        if (landmarks_[landmark].alive || named[landmark]++) {
+            throw DamagedBytes("a landmark that is not dead, or twice");
+        }
         dead_.emplace_back(landmark, in.get<std::uint32_t>());
     }
-    culled_ = getNumbers(in, keyframes);
 }
 
 int SlamMap::addKeyframe(Frame frame, const SE3& T_cam_world, int part, Link link) {

@@ -76,12 +76,12 @@ void Tracker::save(ByteWriter& out) const {
 
 void Tracker::load(ByteReader& in) {
     motion_ = decodePose(in);
-    landmarks_before_ = getNumbers(in, map_.landmarks().size());
+    landmarks_before_ = getLandmarks(in, map_.landmarks().size());
     last_.reset();
     if (!getFlag(in)) return;
     Last last;
     last.frame = getFrame(in, camera_, map_.levels());
-    last.landmarks = getNumbers(in, map_.landmarks().size());
+    last.landmarks = getLandmarks(in, map_.landmarks().size());
     if (last.landmarks.size() != last.frame.keypoints.size()) {
         throw DamagedBytes("landmarks of a frame without their keypoints");
     }

@@ -45,11 +45,11 @@ void VisualSlam::Implementation::load(ByteReader& in) {
     mapper.load(in);
     full_adjuster.load(in);
     closer.load(in);
-    weak_motion.load(in);
+    weak_motion.load(in, builder.viewCamera());
     decision.load(in, map.keyframes().size());
     records.load(in, map.keyframes().size());
     for (int* number : {&frames_since_keyframe, &frames_since_loop}) {
-        *number = in.get<std::int32_t>();
+        *number = getTally(in);
     }
     for (bool* flag : {&frozen, &placed}) *flag = getFlag(in);
     link = getLink(in);

@@ -50,15 +50,15 @@ void WeakMotion::save(ByteWriter& out) const {
     out.put<std::int32_t>(astray_);
 }
 
-void WeakMotion::load(ByteReader& in) {
-    weak_.load(in);
+void WeakMotion::load(ByteReader& in, const Camera& view_camera) {
+    weak_.load(in, view_camera);
     anchor_.reset();
     if (getFlag(in)) {
         anchor_.emplace(Anchor{tracker_});
         anchor_->tracker.load(in);
         anchor_->most_inliers = in.get<std::int32_t>();
     }
-    astray_ = in.get<std::int32_t>();
+    astray_ = getTally(in);
 }
 
 }  // namespace rgbd_graphslam

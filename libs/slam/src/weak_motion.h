@@ -33,8 +33,10 @@ class WeakMotion {
 
     /** What coming frames depend on. */
     void save(ByteWriter& out) const;
-    /** The tracker must be loaded. \throws DamagedBytes */
-    void load(ByteReader& in);
+    /** The tracker must be loaded.
+     *  \param view_camera of the frames' small images
+     *  \throws DamagedBytes */
+    void load(ByteReader& in, const Camera& view_camera);
 
   private:
     /** A tracker whose last frame is the one that is followed. */

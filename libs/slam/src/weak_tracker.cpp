@@ -37,10 +37,13 @@ void put(const DenseView& view, ByteWriter& out) {
     put(view.depth_m, out);
 }
 
-DenseView getView(ByteReader& in) {
+DenseView getView(ByteReader& in, const Camera& expected) {
     DenseView view;
     if (getFlag(in)) return view;
     view.camera = getCamera(in);
+    if (view.camera.width != expected.width || view.camera.height != expected.height) {
+        throw DamagedBytes("an image of another camera");
+    }
     const std::size_t pixels = std::size_t(view.camera.width) * view.camera.height;
     view.grey = getPixels(in, pixels);
     view.depth_m = getPixels(in, pixels);
@@ -84,8 +87,8 @@ void WeakTracker::save(ByteWriter& out) const {
     for (const double stamp_s : {last_stamp_s_, last_fixed_s_}) out.put(stamp_s);
 }
 
-void WeakTracker::load(ByteReader& in) {
-    const DenseView anchor = getView(in);
+void WeakTracker::load(ByteReader& in, const Camera& view_camera) {
+    const DenseView anchor = getView(in, view_camera);
     anchor_ = {};
     if (!anchor.empty()) anchor_ = std::async(std::launch::deferred, [anchor] { return anchor; });
     last_reckoning_ = getReckoning(in);

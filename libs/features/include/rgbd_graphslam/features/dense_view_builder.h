@@ -14,6 +14,8 @@ class DenseViewBuilder {
     /** Means over blocks of pixels. Thread-safe.
      *  \param image grey and depth of the camera's size */
     DenseView build(const RgbdImage& image) const;
+    /** Of the views. */
+    const Camera& camera() const { return small_; }
 
   private:
     int block_px_ = 1;

@@ -18,6 +18,8 @@ class FrameBuilder {
      *  shares the pixels until its view is dropped.
      *  \throws Error when the images are not of the camera's size or of the wrong type */
     Frame build(const RgbdImage& image) const;
+    /** Of the frames' small images. */
+    const Camera& viewCamera() const { return dense_->camera(); }
 
   private:
     FeatureOptions options_;

@@ -19,6 +19,9 @@ struct MapSession {
 void encode(const std::vector<MapSession>& sessions, ByteWriter& out);
 /** \throws DamagedBytes */
 std::vector<MapSession> decodeSessions(ByteReader& in);
+/** \param keyframes of the map
+ *  \throws DamagedBytes where sessions are not in order, or begin after the last keyframe */
+void requireInOrder(const std::vector<MapSession>& sessions, std::size_t keyframes);
 
 struct SparseMap {
     MapSnapshot snapshot;

@@ -29,10 +29,16 @@ int getIndex(ByteReader& in, std::size_t end, const char* what);
 void putFlag(bool flag, ByteWriter& out);
 bool getFlag(ByteReader& in);
 
-/** Numbers such as landmarks' or no_landmark. */
+/** Numbers of landmarks or keyframes. */
 void putNumbers(const std::vector<int>& numbers, ByteWriter& out);
-/** \return each in [-1, end) */
+/** \return each in [0, end) */
 std::vector<int> getNumbers(ByteReader& in, std::size_t end);
+/** \param end of the landmarks
+ *  \return each in [0, end) or no_landmark */
+std::vector<int> getLandmarks(ByteReader& in, std::size_t end);
+/** What is counted up, frame by frame.
+ *  \return not negative, and far from overflowing */
+int getTally(ByteReader& in);
 
 /** A rotation matrix by rows, then the translation. */
 void encodePose(const SE3& pose, ByteWriter& out);

@@ -31,8 +31,9 @@ class PlaceIndex {
 
     void save(ByteWriter& out) const;
     /** The trees divide the descriptors as those that were saved.
+     *  \param keyframes there are
      *  \throws DamagedBytes */
-    void load(ByteReader& in);
+    void load(ByteReader& in, std::size_t keyframes);
 
     /** Forgets a keyframe; the memory of its descriptors is used again as their leaves fill up. */
     void erase(int keyframe);

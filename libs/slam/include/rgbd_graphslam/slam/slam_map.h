@@ -126,6 +126,7 @@ class SlamMap {
   private:
     void refreshAppearance(int landmark);
     void bury(int landmark);
+    void loadDead(ByteReader& in);
     int freeLandmark();
 
     std::vector<double> scale_;

@@ -23,8 +23,9 @@ class WeakTracker {
 
     /** What coming frames depend on. */
     void save(ByteWriter& out) const;
-    /** \throws DamagedBytes */
-    void load(ByteReader& in);
+    /** \param view_camera of the frames' small images
+     *  \throws DamagedBytes */
+    void load(ByteReader& in, const Camera& view_camera);
 
     /** The likeliest T_last_cam before the frame is looked at. */
     SE3 guess(const Frame& frame) const;
