@@ -1,5 +1,5 @@
-# The viewer opens its window on a display without hardware (Xvfb), shows a run, and what it shows is
-# not blank; it follows a run and may be killed without harm; without a display it says so in one line, and --snapshot works all the same.
+# The viewer opens its window on a display without hardware (Xvfb) and shows a run: the scene, and the
+# panels, each by itself, so that neither hides that the other is missing; it follows a run and may be killed without harm; without a display it says so in one line, and --snapshot works all the same.
 # APP: rgbd-viewer. SLAM: rgbd-slam. RAWLOG, INI: a short run. SCRATCH: a folder for it all.
 cmake_minimum_required(VERSION 3.22)
 
@@ -15,25 +15,49 @@ set(ENV{XDG_CONFIG_HOME} ${SCRATCH}/config)
 execute_process(COMMAND ${SLAM} --quiet --max-frames 40 ${INI} ${RAWLOG} -o ${SCRATCH}/out
     COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
 
+# One colour packs into a few kB; a room or an image does not.
 function(expect_picture file)
     if(NOT EXISTS ${file})
         message(FATAL_ERROR "${file} was not written")
     endif()
     file(SIZE ${file} bytes)
-    # One colour packs into a few kB; a room does not.
     if(bytes LESS 60000)
         message(FATAL_ERROR "${file} has ${bytes} bytes: it is blank or nearly so")
     endif()
 endfunction()
 
-execute_process(
-    COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24"
-        ${APP} ${SCRATCH}/out --screenshot ${SCRATCH}/window.png
-    RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE text TIMEOUT 120)
-if(NOT code EQUAL 0)
-    message(FATAL_ERROR "the viewer ended with ${code} and said:\n${text}")
-endif()
-expect_picture(${SCRATCH}/window.png)
+function(expect_blank file)
+    file(SIZE ${file} bytes)
+    if(bytes GREATER 30000)
+        message(FATAL_ERROR "${file} has ${bytes} bytes: it shows what is switched off")
+    endif()
+endfunction()
+
+# The window with every switch of a list off, as NAME.png.
+function(screenshot name)
+    set(settings "[ViewerSettings]\n")
+    foreach(switch ${ARGN})
+        string(APPEND settings "${switch} = false\n")
+    endforeach()
+    file(WRITE ${SCRATCH}/config/rgbd-graphslam/viewer.ini "${settings}")
+    execute_process(
+        COMMAND ${XVFB_RUN} -a -s "-screen 0 1400x900x24"
+            ${APP} ${SCRATCH}/out --screenshot ${SCRATCH}/${name}.png
+        RESULT_VARIABLE code OUTPUT_VARIABLE text ERROR_VARIABLE text TIMEOUT 120)
+    if(NOT code EQUAL 0)
+        message(FATAL_ERROR "the viewer ended with ${code} and said:\n${text}")
+    endif()
+endfunction()
+
+set(panels view_panel image_panel plot_panel time_panel)
+set(scene points floor trajectory truth keyframes loops)
+screenshot(scene ${panels})
+expect_picture(${SCRATCH}/scene.png)
+screenshot(panels ${scene})
+expect_picture(${SCRATCH}/panels.png)
+screenshot(nothing ${panels} ${scene})
+expect_blank(${SCRATCH}/nothing.png)
+file(REMOVE ${SCRATCH}/config/rgbd-graphslam/viewer.ini)
 
 # The time is for machines with much else to do: such a viewer has the lowest priority.
 # A run that is followed: the result is shown when it ends, and it is the same as without a viewer;

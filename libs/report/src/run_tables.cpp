@@ -58,9 +58,8 @@ std::string loopSummary(const RunRecord& run) {
     if (errors_mm.empty()) return "Without ground truth the loops cannot be checked.";
     const Statistics errors = statisticsOf(errors_mm);
     std::string text = formatted(
-        "A loop measures where one keyframe is from the other. Against the truth %zu of %zu are "
-        "off "
-        "by %.1f mm in the median, %.1f mm at most; %s.",
+        "A loop measures where one keyframe is from the other. Against the truth, known for %zu of "
+        "%zu, it is off by %.1f mm in the median and %.1f mm at most; %s.",
         errors_mm.size(), run.loops.size(), errors.median, errors.max,
         run.false_loops.value_or(0) == 0 ? "none is false"
                                          : "those marked false join places that are not the same");

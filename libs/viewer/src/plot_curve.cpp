@@ -38,4 +38,18 @@ std::vector<float> thinnedCurve(const std::vector<float>& values, std::size_t mo
     return thinned;
 }
 
+float axisEnd(std::vector<float> values) {
+    constexpr double usual_share = 0.99;
+    constexpr float room = 1.5f;
+    values.erase(
+        std::remove_if(values.begin(), values.end(), [](float v) { return std::isnan(v); }),
+        values.end());
+    if (values.empty()) return 0;
+    const float highest = *std::max_element(values.begin(), values.end());
+    const auto usual = values.begin() + static_cast<std::ptrdiff_t>(
+                                            usual_share * static_cast<double>(values.size() - 1));
+    std::nth_element(values.begin(), usual, values.end());
+    return *usual > 0 ? std::min(highest, room * *usual) : highest;
+}
+
 }  // namespace rgbd_graphslam

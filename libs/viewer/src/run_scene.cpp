@@ -44,24 +44,27 @@ void RunScene::show(RunData run) {
     truth_.reset();
     pictures_.assign(run_.keyframes.size(), {});
     renderer_.clearKeyframePoints();
-    renderer_.setLines(Part::Floor, box_.isEmpty() ? Vertices{} : floorLines(box_, floor_color));
+    renderer_.geometry().setLines(Part::Floor,
+                                  box_.isEmpty() ? Vertices{} : floorLines(box_, floor_color));
     showPoses();
-    renderer_.setLines(Part::TruePath, {});
-    renderer_.setLines(Part::Errors, {});
-    renderer_.setTriangles(Part::Grid, run_.grid ? gridTriangles(*run_.grid) : Vertices{});
-    renderer_.setOctree({});
-    renderer_.setFreeSpace({});
+    renderer_.geometry().setLines(Part::TruePath, {});
+    renderer_.geometry().setLines(Part::Errors, {});
+    renderer_.geometry().setTriangles(Part::Grid,
+                                      run_.grid ? gridTriangles(*run_.grid) : Vertices{});
+    renderer_.geometry().setOctree({});
+    renderer_.geometry().setFreeSpace({});
     renderer_.setPoints(chunked(pointVertices(run_.points)));
     run_.points = {};  // the renderer has them
 }
 
 void RunScene::showPoses() {
-    renderer_.setLines(Part::Path, pathLines(run_.trajectory, run_.unplaced_s, trajectory_color));
-    renderer_.setLines(Part::Loops, edgeLines(run_.keyframes, run_.loops, loop_color));
-    renderer_.setLines(Part::Covisibility,
-                       edgeLines(run_.keyframes, run_.covisibility, covisibility_color));
-    renderer_.setLines(Part::BeforeLoops,
-                       pathLines(run_.keyframes_before_loops, run_.unplaced_s, before_color));
+    renderer_.geometry().setLines(Part::Path,
+                                  pathLines(run_.trajectory, run_.unplaced_s, trajectory_color));
+    renderer_.geometry().setLines(Part::Loops, edgeLines(run_.keyframes, run_.loops, loop_color));
+    renderer_.geometry().setLines(Part::Covisibility,
+                                  edgeLines(run_.keyframes, run_.covisibility, covisibility_color));
+    renderer_.geometry().setLines(
+        Part::BeforeLoops, pathLines(run_.keyframes_before_loops, run_.unplaced_s, before_color));
     setCamera(camera_);
 }
 
@@ -86,8 +89,8 @@ void RunScene::extendPath(const RunData& longer) {
     const Trajectory added(run_.trajectory.begin() + static_cast<std::ptrdiff_t>(joint),
                            run_.trajectory.end());
     for (const StampedPose& pose : added) box_.extend(pose.T_world_cam.t);
-    renderer_.extendLines(Part::Path, 2 * joint,
-                          pathLines(added, run_.unplaced_s, trajectory_color));
+    renderer_.geometry().extendLines(Part::Path, 2 * joint,
+                                     pathLines(added, run_.unplaced_s, trajectory_color));
 }
 
 void RunScene::showClouds(const std::vector<std::pair<std::size_t, Vertices>>& clouds) {
@@ -99,8 +102,8 @@ void RunScene::showClouds(const std::vector<std::pair<std::size_t, Vertices>>& c
 
 void RunScene::setCamera(const Camera& camera) {
     camera_ = camera;
-    renderer_.setLines(Part::Keyframes,
-                       frustumLines(run_.keyframes, camera, frustumDepth(), keyframe_color));
+    renderer_.geometry().setLines(
+        Part::Keyframes, frustumLines(run_.keyframes, camera, frustumDepth(), keyframe_color));
 }
 
 /** Frustums are as large as keyframes are apart, so that they neither vanish nor hide the map. */
@@ -122,19 +125,20 @@ void RunScene::add(RecordingLoader::News news) {
     }
     if (!news.truth) return;
     truth_ = std::move(news.truth);
-    renderer_.setLines(Part::TruePath, pathLines(truth_->poses, {}, truth_color));
+    renderer_.geometry().setLines(Part::TruePath, pathLines(truth_->poses, {}, truth_color));
     std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> pairs;
     for (const auto& error : truth_->errors) pairs.emplace_back(error.estimate, error.truth);
-    renderer_.setLines(Part::Errors, pairLines(pairs, error_color));
+    renderer_.geometry().setLines(Part::Errors, pairLines(pairs, error_color));
 }
 
 void RunScene::markNow(std::optional<double> stamp_s) {
     if (stamp_s == now_s_) return;
     now_s_ = stamp_s;
     const auto pose = stamp_s ? poseNear(run_.trajectory, *stamp_s) : std::nullopt;
-    renderer_.setLines(Part::NowCamera, pose ? frustumLines({{*stamp_s, *pose}}, camera_,
-                                                            2 * frustumDepth(), now_color)
-                                             : Vertices{});
+    renderer_.geometry().setLines(
+        Part::NowCamera,
+        pose ? frustumLines({{*stamp_s, *pose}}, camera_, 2 * frustumDepth(), now_color)
+             : Vertices{});
 }
 
 void RunScene::select(std::optional<std::size_t> keyframe) {
@@ -143,7 +147,7 @@ void RunScene::select(std::optional<std::size_t> keyframe) {
         lines =
             frustumLines({run_.keyframes[*keyframe]}, camera_, 2 * frustumDepth(), selection_color);
     }
-    renderer_.setLines(Part::Selection, lines);
+    renderer_.geometry().setLines(Part::Selection, lines);
 }
 
 void RunScene::markPoints(const std::vector<Eigen::Vector3d>& points, double cross_m) {
@@ -155,14 +159,14 @@ void RunScene::markPoints(const std::vector<Eigen::Vector3d>& points, double cro
         }
     }
     if (points.size() == 2) lines.emplace_back(points[0], points[1]);
-    renderer_.setLines(Part::Measure, pairLines(lines, measure_color));
+    renderer_.geometry().setLines(Part::Measure, pairLines(lines, measure_color));
 }
 
 void RunScene::prepare(const ViewerSettings& settings) {
     if (settings.octree && !run_.octree.occupied.empty())
-        renderer_.setOctree(outerFaces(std::exchange(run_.octree.occupied, {})));
+        renderer_.geometry().setOctree(outerFaces(std::exchange(run_.octree.occupied, {})));
     if (settings.free_space && !run_.octree.free.empty())
-        renderer_.setFreeSpace(outerFaces(std::exchange(run_.octree.free, {})));
+        renderer_.geometry().setFreeSpace(outerFaces(std::exchange(run_.octree.free, {})));
 }
 
 SceneView RunScene::viewAt(std::optional<double> stamp_s, const ViewerSettings& settings) const {
@@ -187,7 +191,12 @@ SceneView RunScene::viewAt(std::optional<double> stamp_s, const ViewerSettings& 
     for (const Part part : {Part::NowCamera, Part::Selection, Part::Measure})
         put(part, true, whole);
     view.points = settings.points;
-    if (stamp_s) view.keyframe_clouds = std::max<std::size_t>(now.keyframes, 1);
+    // Clouds of a running SLAM are there before the map that names their keyframes.
+    if (live_revision_) {
+        view.keyframe_clouds = whole;
+    } else if (stamp_s) {
+        view.keyframe_clouds = std::max<std::size_t>(now.keyframes, 1);
+    }
     view.color_by_height = settings.colors == "height";
     if (!box_.isEmpty()) {
         view.height_range_m = {static_cast<float>(box_.min().z()),

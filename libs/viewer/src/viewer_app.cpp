@@ -25,8 +25,9 @@ class Glfw {
     Glfw() {
         glfwSetErrorCallback([](int, const char* text) { glfw_complaint = text; });
         if (!glfwInit()) {
-            throw Error("no window can be opened (" + glfw_complaint + ")",
-                        "call from a desktop, or use --snapshot for a picture without one");
+            throw Error(
+                "no window can be opened (" + glfw_complaint + ")",
+                "call from a desktop or over ssh -X, or use --snapshot for a picture without one");
         }
         glfwSetTime(0);
     }
@@ -41,8 +42,10 @@ nanogui::ref<ViewerWindow> makeWindow(const ViewerSettings& settings, const std:
     } catch (const Error&) {
         throw;
     } catch (const std::exception&) {
+        const char* attempt = std::getenv("LIBGL_ALWAYS_INDIRECT") ? "unset LIBGL_ALWAYS_INDIRECT"
+                                                                   : "try LIBGL_ALWAYS_SOFTWARE=1";
         throw Error("the display offers no OpenGL 3.3 (" + glfw_complaint + ")",
-                    "try LIBGL_ALWAYS_SOFTWARE=1, or use --snapshot");
+                    std::string(attempt) + ", or use --snapshot");
     }
 }
 

@@ -98,6 +98,9 @@ PlotWidget::PlotWidget(nanogui::Widget* parent, const nanogui::Vector2i& size_px
 
 void PlotWidget::show(const std::vector<float>& values) {
     last_ = values.empty() ? NAN : values.back();
+    highest_ = 0;
+    for (const float value : values) highest_ = std::fmax(highest_, value);  // passes over gaps
+    axis_end_ = axisEnd(values);
     values_ = thinnedCurve(values, 2 * static_cast<std::size_t>(wanted_px_.x()));
 }
 
@@ -108,21 +111,19 @@ void PlotWidget::name(const std::string& title, const std::string& unit) {
 
 std::string PlotWidget::number(float value) const {
     char text[64];
-    std::snprintf(text, sizeof(text), "%.4g%s", static_cast<double>(value), unit_.c_str());
+    const char* format = std::abs(value) < 100 ? "%.3g%s" : "%.0f%s";
+    std::snprintf(text, sizeof(text), format, static_cast<double>(value), unit_.c_str());
     return text;
 }
 
 void PlotWidget::draw(NVGcontext* context) {
     fillRectangle(context, mPos, mSize, paper);
-    float low = 0, high = 0;  // the axis always begins at zero
-    for (const float value : values_) {
-        if (std::isfinite(value)) high = std::max(high, value);
-    }
-    if (high > low) drawCurve(context, low, high);
-    drawTexts(context, low, high);
+    if (axis_end_ > 0) drawCurve(context);
+    drawCursor(context);
+    drawTexts(context);
 }
 
-void PlotWidget::drawCurve(NVGcontext* context, float low, float high) {
+void PlotWidget::drawCurve(NVGcontext* context) {
     const float w = static_cast<float>(mSize.x()), x0 = static_cast<float>(mPos.x());
     const float bottom = static_cast<float>(mPos.y() + mSize.y()) - margin_px;
     const float h = static_cast<float>(mSize.y()) - text_px - 2 * margin_px;
@@ -131,7 +132,7 @@ void PlotWidget::drawCurve(NVGcontext* context, float low, float high) {
     bool drawing = false;
     for (std::size_t i = 0; i < values_.size(); ++i) {
         const float x = x0 + w * static_cast<float>(i) / last;
-        const float y = bottom - h * (values_[i] - low) / (high - low);
+        const float y = bottom - h * std::min(values_[i] / axis_end_, 1.f);
         if (std::isnan(values_[i])) {
             drawing = false;
         } else if (std::exchange(drawing, true)) {
@@ -143,19 +144,21 @@ void PlotWidget::drawCurve(NVGcontext* context, float low, float high) {
     nvgStrokeColor(context, curve_color);
     nvgStrokeWidth(context, 1.2f);
     nvgStroke(context);
-    if (cursor_ >= 0 && cursor_ <= 1) {
-        fillRectangle(context, {static_cast<int>(x0 + w * cursor_), mPos.y()}, {1, mSize.y()},
-                      cursor_color);
-    }
 }
 
-void PlotWidget::drawTexts(NVGcontext* context, float low, float high) {
+void PlotWidget::drawCursor(NVGcontext* context) {
+    if (cursor_ < 0 || cursor_ > 1) return;
+    const int x = mPos.x() + static_cast<int>(cursor_ * static_cast<float>(mSize.x()));
+    fillRectangle(context, {x, mPos.y()}, {1, mSize.y()}, cursor_color);
+}
+
+void PlotWidget::drawTexts(NVGcontext* context) {
     const float left = static_cast<float>(mPos.x()) + margin_px;
     const float right = static_cast<float>(mPos.x() + mSize.x()) - margin_px;
     const float top = static_cast<float>(mPos.y()) + 2;
     write(context, left, top, NVG_ALIGN_LEFT | NVG_ALIGN_TOP, title_);
-    if (high <= low) return;
-    std::string text = "max " + number(high);
+    if (highest_ <= 0) return;
+    std::string text = "max " + number(highest_);
     if (std::isfinite(last_)) text = number(last_) + ", " + text;
     write(context, right, top, NVG_ALIGN_RIGHT | NVG_ALIGN_TOP, text);
 }

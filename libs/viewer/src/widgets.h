@@ -36,7 +36,7 @@ class PictureWidget : public nanogui::Widget {
     std::vector<PictureMark> marks_;
 };
 
-/** A curve over time with its range. */
+/** A curve over time, from zero on. What is too high for the axis ends at its top. */
 class PlotWidget : public nanogui::Widget {
   public:
     PlotWidget(nanogui::Widget* parent, const nanogui::Vector2i& size_px);
@@ -51,14 +51,15 @@ class PlotWidget : public nanogui::Widget {
     void draw(NVGcontext* context) override;
 
   private:
-    void drawCurve(NVGcontext* context, float low, float high);
-    void drawTexts(NVGcontext* context, float low, float high);
+    void drawCurve(NVGcontext* context);
+    void drawCursor(NVGcontext* context);
+    void drawTexts(NVGcontext* context);
     std::string number(float value) const;
 
     nanogui::Vector2i wanted_px_;
     std::string title_, unit_;
     std::vector<float> values_;  // thinned
-    float last_ = NAN;
+    float last_ = NAN, highest_ = 0, axis_end_ = 0;
     float cursor_ = -1;
 };
 

@@ -41,5 +41,16 @@ TEST(ThinnedCurve, keepsGaps) {
     EXPECT_TRUE(std::isnan(thinned[14]) && std::isnan(thinned[15]));
 }
 
+TEST(AxisEnd, isTheHighestValueUnlessItStandsOut) {
+    std::vector<float> values;
+    for (int i = 0; i < 1000; ++i) values.push_back(static_cast<float>(i % 10));
+    EXPECT_EQ(axisEnd(values), 9);
+    values[500] = 4000;
+    values[501] = NAN;
+    EXPECT_FLOAT_EQ(axisEnd(values), 13.5f);
+    EXPECT_EQ(axisEnd({0, 0, 7}), 7);
+    EXPECT_EQ(axisEnd({NAN, NAN}), 0);
+}
+
 }  // namespace
 }  // namespace rgbd_graphslam
