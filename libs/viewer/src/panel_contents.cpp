@@ -44,12 +44,10 @@ long count(const LiveFrame& frame, FeatureState state) {
                          [&](const LiveFeature& feature) { return feature.state == state; });
 }
 
-std::vector<float> errorsCm(const TrueTrajectory& truth) {
-    std::vector<float> errors;
-    for (const auto& error : truth.errors) {
-        errors.push_back(static_cast<float>(100 * (error.estimate - error.truth).norm()));
-    }
-    return errors;
+std::vector<float> errorsCm(const std::vector<TrueError>& errors) {
+    std::vector<float> errors_cm;
+    for (const TrueError& error : errors) errors_cm.push_back(static_cast<float>(100 * error.m()));
+    return errors_cm;
 }
 
 }  // namespace
@@ -64,16 +62,15 @@ void showKeyframe(PicturePanel& panel, const RunScene& scene, std::size_t keyfra
                         run.keyframes[keyframe].stamp_s - timeSpan(run).first));
 }
 
-void showRunPlots(PlotPanel& panel, const RunScene& scene, bool all_read) {
-    const char* without_truth = all_read ? "error: no truth" : "error: truth not yet read";
+void showRunPlots(PlotPanel& panel, const RunScene& scene) {
     std::vector<float> landmarks;
     for (const FrameNote& frame : scene.run().frames) {
         landmarks.push_back(frame.lost ? NAN : static_cast<float>(frame.inliers));
     }
     panel.landmarks().show(landmarks);
     panel.times().show(scene.run().frame_times_ms);
-    panel.errors().name(scene.truth() ? "error" : without_truth, " cm");
-    panel.errors().show(scene.truth() ? errorsCm(*scene.truth()) : std::vector<float>());
+    panel.errors().name(scene.errors().empty() ? "error: no truth" : "error", " cm");
+    panel.errors().show(errorsCm(scene.errors()));
 }
 
 void showLiveFrame(PicturePanel& panel, const LiveFrame& frame) {

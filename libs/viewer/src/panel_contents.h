@@ -10,9 +10,8 @@ namespace rgbd_graphslam {
 
 /** Images of a keyframe, or why there are none. */
 void showKeyframe(PicturePanel& panel, const RunScene& scene, std::size_t keyframe);
-/** Landmarks, times and errors of a finished run. \param all_read the truth, too, where it is known
- */
-void showRunPlots(PlotPanel& panel, const RunScene& scene, bool all_read);
+/** Landmarks, times and errors of a finished run. */
+void showRunPlots(PlotPanel& panel, const RunScene& scene);
 
 /** Images of the present frame with its features. \throws Error when it has none */
 void showLiveFrame(PicturePanel& panel, const LiveFrame& frame);

@@ -3,8 +3,6 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "rgbd_graphslam/core/console.h"
-#include "rgbd_graphslam/dataset/rawlog_info.h"
-#include "rgbd_graphslam/evaluation/ate.h"
 #include "rgbd_graphslam/mapping/keyframe_reader.h"
 #include "rgbd_graphslam/viewer/keyframe_view.h"
 
@@ -12,7 +10,6 @@ namespace rgbd_graphslam {
 namespace {
 
 constexpr int picture_width_px = 320;
-constexpr double margin_s = 0.1;
 
 struct Stopped {};
 
@@ -37,29 +34,8 @@ KeyframePicture pictureOf(const Keyframe3D& keyframe) {
 
 }  // namespace
 
-TrueTrajectory alignedTruth(const Trajectory& estimate, const Trajectory& truth) {
-    const AteResult ate = evaluateAte(estimate, truth);
-    const SE3 T_estimate_truth = ate.alignment.motion.inverse();
-    TrueTrajectory result;
-    result.rmse_m = ate.translation_m.rmse;
-    for (const StampedPose& pose : truth) {
-        const bool meanwhile = pose.stamp_s >= estimate.front().stamp_s - margin_s &&
-                               pose.stamp_s <= estimate.back().stamp_s + margin_s;
-        if (!meanwhile) continue;
-        result.poses.push_back({pose.stamp_s, T_estimate_truth * pose.T_world_cam});
-    }
-    for (const AtePair& pair : ate.pairs) {
-        result.errors.push_back(
-            {pair.stamp_s, T_estimate_truth * pair.aligned_m, T_estimate_truth * pair.truth_m});
-    }
-    return result;
-}
-
-RecordingLoader::RecordingLoader(std::string rawlog, Trajectory keyframes, Trajectory trajectory)
-    : rawlog_(std::move(rawlog)),
-      keyframes_(std::move(keyframes)),
-      trajectory_(std::move(trajectory)),
-      thread_([this] { read(); }) {}
+RecordingLoader::RecordingLoader(std::string rawlog, Trajectory keyframes)
+    : rawlog_(std::move(rawlog)), keyframes_(std::move(keyframes)), thread_([this] { read(); }) {}
 
 RecordingLoader::~RecordingLoader() {
     {
@@ -71,17 +47,16 @@ RecordingLoader::~RecordingLoader() {
 
 RecordingLoader::News RecordingLoader::take() {
     const std::lock_guard lock(mutex_);
-    return std::exchange(news_, News{{}, {}, {}, news_.finished});
+    return std::exchange(news_, News{{}, {}, news_.finished});
 }
 
 void RecordingLoader::read() {
     try {
         readPictures();
-        readTruth();
     } catch (const Stopped&) {
         return;
     } catch (const std::exception& e) {
-        sayWarning(std::string("not all of the recording is shown: ") + e.what());
+        sayWarning(std::string("not all images of the recording are shown: ") + e.what());
     }
     const std::lock_guard lock(mutex_);
     news_.finished = true;
@@ -95,15 +70,6 @@ void RecordingLoader::readPictures() {
         news_.pictures.push_back(std::move(picture));
         news_.camera = keyframe.camera;
     });
-}
-
-void RecordingLoader::readTruth() {
-    const Trajectory truth = truthOf(rawlog_);
-    if (truth.empty()) return;
-    TrueTrajectory aligned = alignedTruth(trajectory_, truth);
-    const std::lock_guard lock(mutex_);
-    if (stop_) throw Stopped();
-    news_.truth = std::move(aligned);
 }
 
 }  // namespace rgbd_graphslam

@@ -117,7 +117,7 @@ MapInputs readInputs(const std::string& folder) {
     } catch (const Error& e) {
         MapInputs inputs = readRunFolder(folder, "gone");  // throws when more is wrong than that
         inputs.rawlog.clear();
-        sayWarning(std::string(e.what()) + "; shown without images and true trajectory");
+        sayWarning(std::string(e.what()) + "; shown without images");
         return inputs;
     }
 }
@@ -133,6 +133,7 @@ void readPoses(const fs::path& folder, RunData& run) {
     for (const MapLoopEdge& loop : inputs.loops) {
         if (loop.from < count && loop.to < count) run.loops.push_back({loop.from, loop.to});
     }
+    ifThere(folder / "truth.txt", [&](const std::string& path) { run.truth = readTumPoses(path); });
     ifThere(folder / "covisibility.csv",
             [&](const std::string& path) { run.covisibility = readCovisibility(path, count); });
     sortByLater(run.loops);

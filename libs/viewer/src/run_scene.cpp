@@ -41,14 +41,12 @@ void RunScene::show(RunData run) {
     live_revision_.reset();
     lowest_ceiling_m_ = lowest_ceiling_m;
     box_ = boxOf(run_);
-    truth_.reset();
     pictures_.assign(run_.keyframes.size(), {});
     renderer_.clearKeyframePoints();
     renderer_.geometry().setLines(Part::Floor,
                                   box_.isEmpty() ? Vertices{} : floorLines(box_, floor_color));
     showPoses();
-    renderer_.geometry().setLines(Part::TruePath, {});
-    renderer_.geometry().setLines(Part::Errors, {});
+    showTruth();
     renderer_.geometry().setTriangles(Part::Grid,
                                       run_.grid ? gridTriangles(*run_.grid) : Vertices{});
     renderer_.geometry().setOctree({});
@@ -66,6 +64,15 @@ void RunScene::showPoses() {
     renderer_.geometry().setLines(
         Part::BeforeLoops, pathLines(run_.keyframes_before_loops, run_.unplaced_s, before_color));
     setCamera(camera_);
+}
+
+void RunScene::showTruth() {
+    errors_ = trueErrors(run_.trajectory, run_.truth);
+    std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> pairs;
+    for (const TrueError& error : errors_) pairs.emplace_back(error.estimate, error.truth);
+    renderer_.geometry().setLines(Part::Errors, pairLines(pairs, error_color));
+    renderer_.geometry().setLines(Part::TruePath,
+                                  pathLines(run_.truth, run_.unplaced_s, truth_color));
 }
 
 void RunScene::update(const LiveRun& live) {
@@ -123,12 +130,6 @@ void RunScene::add(RecordingLoader::News news) {
         picture.points = {};  // the renderer has them
         pictures_[picture.keyframe] = std::move(picture);
     }
-    if (!news.truth) return;
-    truth_ = std::move(news.truth);
-    renderer_.geometry().setLines(Part::TruePath, pathLines(truth_->poses, {}, truth_color));
-    std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> pairs;
-    for (const auto& error : truth_->errors) pairs.emplace_back(error.estimate, error.truth);
-    renderer_.geometry().setLines(Part::Errors, pairLines(pairs, error_color));
 }
 
 void RunScene::markNow(std::optional<double> stamp_s) {
@@ -184,10 +185,8 @@ SceneView RunScene::viewAt(std::optional<double> stamp_s, const ViewerSettings& 
     put(Part::Covisibility, settings.covisibility, 2 * now.covisibility);
     put(Part::Loops, settings.loops, 2 * now.loops);
     put(Part::BeforeLoops, settings.before_loops, whole);
-    put(Part::TruePath, settings.truth && truth_,
-        truth_ ? verticesUntil(truth_->poses, stamp_s) : 0);
-    put(Part::Errors, settings.errors && truth_,
-        truth_ ? verticesUntil(truth_->errors, stamp_s) : 0);
+    put(Part::TruePath, settings.truth, verticesUntil(run_.truth, stamp_s));
+    put(Part::Errors, settings.errors, verticesUntil(errors_, stamp_s));
     for (const Part part : {Part::NowCamera, Part::Selection, Part::Measure})
         put(part, true, whole);
     view.points = settings.points;

@@ -7,6 +7,7 @@
 #include "rgbd_graphslam/viewer/recording_loader.h"
 #include "rgbd_graphslam/viewer/replay.h"
 #include "rgbd_graphslam/viewer/run_data.h"
+#include "rgbd_graphslam/viewer/true_errors.h"
 #include "rgbd_graphslam/viewer/viewer_settings.h"
 #include "scene_renderer.h"
 
@@ -35,13 +36,15 @@ class RunScene {
     SceneView viewAt(std::optional<double> stamp_s, const ViewerSettings& settings) const;
 
     const RunData& run() const { return run_; }
-    const std::optional<TrueTrajectory>& truth() const { return truth_; }
+    /** None where the truth is not known. */
+    const std::vector<TrueError>& errors() const { return errors_; }
     /** \return nullptr while it is not read */
     const KeyframePicture* picture(std::size_t keyframe) const;
     Eigen::AlignedBox3d box() const { return box_; }
 
   private:
     void showPoses();
+    void showTruth();
     void extendPath(const RunData& longer);
     double frustumDepth() const;
     void setCamera(const Camera& camera);
@@ -51,7 +54,7 @@ class RunScene {
     std::optional<std::size_t> live_revision_;
     Eigen::AlignedBox3d box_;
     Camera camera_;
-    std::optional<TrueTrajectory> truth_;
+    std::vector<TrueError> errors_;
     std::vector<KeyframePicture> pictures_;  // one a keyframe, empty while not read
     std::optional<double> now_s_;
     double lowest_ceiling_m_ = 2;

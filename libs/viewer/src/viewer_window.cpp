@@ -52,7 +52,7 @@ void ViewerWindow::open(RunData run) {
     const bool has_recording = !run.rawlog.empty();
     loader_.reset();
     if (has_recording) {
-        loader_ = std::make_unique<RecordingLoader>(run.rawlog, run.keyframes, run.trajectory);
+        loader_ = std::make_unique<RecordingLoader>(run.rawlog, run.keyframes);
     }
     all_read_ = !has_recording;
     follow_camera_ = false;
@@ -64,7 +64,7 @@ void ViewerWindow::open(RunData run) {
     scene_->show(std::move(run));
     select(std::nullopt);
     fit();
-    showRunPlots(panels_->plots(), *scene_, all_read_);
+    showRunPlots(panels_->plots(), *scene_);
     showTime();
 }
 
@@ -154,12 +154,11 @@ void ViewerWindow::takeRecording() {
     if (!loader_ || all_read_) return;
     RecordingLoader::News news = loader_->take();
     all_read_ = news.finished;
-    if (news.camera || news.truth) {
+    if (news.camera) {
         scene_->add(std::move(news));
         showPictures();
         sceneChanged();
     }
-    if (scene_->truth() || all_read_) showRunPlots(panels_->plots(), *scene_, all_read_);
 }
 
 void ViewerWindow::saveScreenshot(const std::string& path) {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "rgbd_graphslam/viewer/recording_loader.h"
-
 namespace rgbd_graphslam {
 namespace {
 
@@ -44,23 +42,6 @@ TEST(Thinned, keepsWhatIsSmallEnough) {
     EXPECT_EQ(thinned(cv::Mat3b(480, 640), 320).size(), cv::Size(320, 240));
     EXPECT_EQ(thinned(cv::Mat3b(240, 320), 320).size(), cv::Size(320, 240));
     EXPECT_EQ(thinned(cv::Mat3b(720, 1280), 320).size(), cv::Size(320, 180));
-}
-
-TEST(AlignedTruth, liesOverTheEstimate) {
-    const SE3 T_truth_estimate(rotationExp({0.1, 0.2, 2}), {3, -1, 7});
-    Trajectory estimate, truth;
-    for (int i = 0; i < 20; ++i) {
-        const SE3 pose(rotationExp({0, 0, 0.1 * i}), {std::sin(0.3 * i), 0.1 * i, 0.02 * i * i});
-        estimate.push_back({1.0 * i, pose});
-        truth.push_back({1.0 * i, T_truth_estimate * pose});
-    }
-    truth.push_back({500, SE3()});  // long after
-    const TrueTrajectory aligned = alignedTruth(estimate, truth);
-    EXPECT_EQ(aligned.poses.size(), 20U);
-    EXPECT_LT(aligned.rmse_m, 1e-9);
-    ASSERT_EQ(aligned.errors.size(), 20U);
-    EXPECT_LT((aligned.poses[7].T_world_cam.t - estimate[7].T_world_cam.t).norm(), 1e-9);
-    EXPECT_LT((aligned.errors[7].truth - aligned.errors[7].estimate).norm(), 1e-9);
 }
 
 }  // namespace

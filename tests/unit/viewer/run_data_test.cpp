@@ -19,6 +19,7 @@ class RunFolder : public testing::Test {
     RunFolder() {
         fs::create_directories(folder_);
         write("trajectory.txt", toTumText(poses(6)));
+        write("truth.txt", toTumText(poses(4)));
         write("keyframes.txt", toTumText(poses(3)));
         write("summary.json",
               R"({"rawlog": "gone.rawlog", "loop_edges": [[2, 0, 40], [9, 0, 1]]})");
@@ -54,6 +55,7 @@ TEST_F(RunFolder, isReadWithoutItsRecordingAndMaps) {
     EXPECT_EQ(run.trajectory.size(), 6U);
     EXPECT_EQ(run.keyframes.size(), 3U);
     EXPECT_TRUE(run.rawlog.empty());
+    EXPECT_EQ(run.truth.size(), 4U);
     EXPECT_TRUE(run.points.empty());
     ASSERT_EQ(run.loops.size(), 1U);  // the other names a keyframe that does not exist
     EXPECT_EQ(run.loops[0].from, 2);

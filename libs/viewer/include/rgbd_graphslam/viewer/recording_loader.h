@@ -21,30 +21,15 @@ struct KeyframePicture {
     Vertices points;  // world
 };
 
-/** The true trajectory laid over the estimate. */
-struct TrueTrajectory {
-    Trajectory poses;  // in the estimate's world, while the estimate lasts
-    struct ErrorLine {
-        double stamp_s = 0;
-        Eigen::Vector3d estimate, truth;
-    };
-    std::vector<ErrorLine> errors;  // one a frame, in order of time
-    double rmse_m = 0;
-};
-
-/** The truth in the estimate's world, aligned as for the ATE.
- *  \throws Error when too few stamps match */
-TrueTrajectory alignedTruth(const Trajectory& estimate, const Trajectory& truth);
-
 /** Reads in a thread of its own, which ends with the object. */
 class RecordingLoader {
   public:
-    RecordingLoader(std::string rawlog, Trajectory keyframes, Trajectory trajectory);
+    /** \param keyframes whose images are wanted */
+    RecordingLoader(std::string rawlog, Trajectory keyframes);
     ~RecordingLoader();
 
     struct News {
         std::vector<KeyframePicture> pictures;
-        std::optional<TrueTrajectory> truth;
         std::optional<Camera> camera;
         bool finished = false;
     };
@@ -54,10 +39,9 @@ class RecordingLoader {
   private:
     void read();
     void readPictures();
-    void readTruth();
 
     const std::string rawlog_;
-    const Trajectory keyframes_, trajectory_;
+    const Trajectory keyframes_;
     std::mutex mutex_;
     News news_;
     bool stop_ = false;

@@ -47,6 +47,8 @@ struct RunData {
     std::string folder;
     std::string rawlog;  // empty when it is gone
     Trajectory trajectory, keyframes, keyframes_before_loops;
+    /** In the estimate's world, at its stamps; empty where it is not known. */
+    Trajectory truth;
     /** Stamps of frames without a pose, rising. */
     std::vector<double> unplaced_s;
     /** Each list by the later of the two keyframes, so that a replay shows a prefix. */
