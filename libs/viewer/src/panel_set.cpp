@@ -19,16 +19,13 @@ double covered(const nanogui::Widget& panel, int extent_px) {
 PanelSet::PanelSet(nanogui::Screen& window, ViewerSettings& settings,
                    const std::vector<Shortcut>& shortcuts, std::function<void()> settings_changed)
     : window_(window),
+      wanted_{settings.view_panel, settings.image_panel, settings.plot_panel, settings.time_panel},
       view_(new ViewPanel(&window, settings, settings_changed)),
       pictures_(new PicturePanel(&window, settings, settings_changed)),
       plots_(new PlotPanel(&window)),
       time_(new TimePanel(&window)),
       help_(new HelpPanel(&window, shortcuts)),
       files_(new ExportPanel(&window)) {
-    view_->setVisible(settings.view_panel);
-    pictures_->setVisible(settings.image_panel);
-    plots_->setVisible(settings.plot_panel);
-    time_->setVisible(settings.time_panel);
     help_->setVisible(false);
     files_->setVisible(false);
 }
@@ -42,14 +39,26 @@ void PanelSet::place() {
     time_->setPosition({margin_px, window_.height() - time_->height() - margin_px});
     help_->center();
     files_->center();
+    showWhatFits();
+}
+
+void PanelSet::showWhatFits() {
+    time_->setVisible(wanted_.time);
+    const int bottom = window_.height() - (wanted_.time ? time_->height() + margin_px : 0);
+    const auto fits = [&](const nanogui::Widget& panel) {
+        return panel.position().y() + panel.height() + margin_px <= bottom;
+    };
+    view_->setVisible(wanted_.view && fits(*view_));
+    plots_->setVisible(wanted_.plots && fits(*plots_));
+    const int left_end = std::max(view_->width(), plots_->width()) + margin_px;
+    pictures_->setVisible(wanted_.pictures && fits(*pictures_) &&
+                          pictures_->position().x() > left_end + margin_px);
 }
 
 void PanelSet::toggle() {
-    const bool show = !view_->visible();
-    for (nanogui::Window* panel :
-         std::initializer_list<nanogui::Window*>{view_, pictures_, plots_, time_}) {
-        panel->setVisible(show);
-    }
+    const bool show = !wanted_.view;
+    wanted_ = {show, show, show, show};
+    showWhatFits();
 }
 
 void PanelSet::toggle(nanogui::Window& panel) {
@@ -66,10 +75,10 @@ Eigen::Vector2d PanelSet::freeShare() const {
 }
 
 void PanelSet::store(ViewerSettings& settings) const {
-    settings.view_panel = view_->visible();
-    settings.image_panel = pictures_->visible();
-    settings.plot_panel = plots_->visible();
-    settings.time_panel = time_->visible();
+    settings.view_panel = wanted_.view;
+    settings.image_panel = wanted_.pictures;
+    settings.plot_panel = wanted_.plots;
+    settings.time_panel = wanted_.time;
 }
 
 }  // namespace rgbd_graphslam

@@ -8,7 +8,8 @@
 
 namespace rgbd_graphslam {
 
-/** Panels keep to the window's edges. The window owns them. */
+/** Panels keep to the window's edges; one that would cover others in a small window is not shown.
+ * The window owns them. */
 class PanelSet {
   public:
     /** \param settings_changed after one of the panels' switches has changed a setting */
@@ -23,7 +24,7 @@ class PanelSet {
     void toggle(nanogui::Window& panel);
     /** Share of the window's width and height that the panels leave free round its centre. */
     Eigen::Vector2d freeShare() const;
-    /** Which are open. */
+    /** Which are to be open. */
     void store(ViewerSettings& settings) const;
 
     ViewPanel& view() { return *view_; }
@@ -34,7 +35,14 @@ class PanelSet {
     ExportPanel& files() { return *files_; }
 
   private:
+    /** Which are to be open where there is room. */
+    struct Wanted {
+        bool view, pictures, plots, time;
+    };
+    void showWhatFits();
+
     nanogui::Screen& window_;
+    Wanted wanted_;
     ViewPanel* view_;
     PicturePanel* pictures_;
     PlotPanel* plots_;
