@@ -17,7 +17,7 @@
 namespace rgbd_graphslam {
 namespace {
 
-constexpr std::uint32_t magic = 0x314c4752;  // "RGL1"
+constexpr std::uint32_t magic = 0x324c4752;  // "RGL2"
 constexpr std::size_t largest_message = std::size_t{256} << 20, chunk_bytes = 1 << 16;
 
 struct Header {
@@ -52,15 +52,6 @@ std::string framed(const std::string& message) {
 }
 
 }  // namespace
-
-void FileDescriptor::reset(int fd) {
-    if (fd_ >= 0) ::close(fd_);
-    fd_ = fd;
-}
-
-int FileDescriptor::release() {
-    return std::exchange(fd_, -1);
-}
 
 LiveServer::LiveServer(const std::string& folder)
     : path_(folder + "/" + live_socket_name),

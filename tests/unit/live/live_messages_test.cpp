@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "rgbd_graphslam/core/error.h"
 
 namespace rgbd_graphslam {
@@ -99,6 +101,24 @@ TEST(LiveMessages, whatIsCutOffIsRefusedWhereverTheCutIs) {
         EXPECT_THROW(decode(bytes + '\0'), Error);
     }
     EXPECT_THROW(decode(std::string(100, '\xff')), Error);
+}
+
+TEST(LiveMessages, damagedOnesAreReadOrRefused) {
+    std::mt19937 random(1);
+    for (const std::string& message : {encode(someFrame()), encode(someMap())}) {
+        int refused = 0;
+        for (int trial = 0; trial < 300; ++trial) {
+            std::string damaged = message;
+            const std::size_t most = trial % 2 == 0 ? 500 : damaged.size();  // lengths lie in front
+            damaged[random() % std::min(most, damaged.size())] = static_cast<char>(random());
+            try {
+                decode(damaged);
+            } catch (const Error&) {
+                ++refused;
+            }
+        }
+        EXPECT_GT(refused, 0);
+    }
 }
 
 TEST(LiveMessages, loopsToNowhereAreRefused) {

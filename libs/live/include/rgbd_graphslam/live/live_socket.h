@@ -8,35 +8,18 @@
 #include <thread>
 #include <vector>
 
+#include "rgbd_graphslam/live/file_descriptor.h"
+
 namespace rgbd_graphslam {
 
 /** Name of the socket in the run's folder. */
 inline constexpr const char* live_socket_name = "live.socket";
 
-/** A file descriptor that is closed with its owner. */
-class FileDescriptor {
-  public:
-    explicit FileDescriptor(int fd = -1) : fd_(fd) {}
-    ~FileDescriptor() { reset(); }
-    FileDescriptor(FileDescriptor&& other) noexcept : fd_(other.release()) {}
-    FileDescriptor& operator=(FileDescriptor&& other) noexcept {
-        reset(other.release());
-        return *this;
-    }
-    int get() const { return fd_; }
-    explicit operator bool() const { return fd_ >= 0; }
-    void reset(int fd = -1);
-
-  private:
-    int release();
-    int fd_;
-};
-
 /** SLAM's end. One viewer at a time; the next one waits until the first is gone. post() never
  *  blocks: what comes while the viewer is still busy with the last message is dropped, so a viewer
  *  that is slow, stopped or killed costs nothing. All work is done in a thread of its own; it has
- *  the priority of the others, which would have to wait for it should it be put off while it holds a
- *  lock of the allocator. */
+ *  the priority of the others, which would have to wait for it should it be put off while it holds
+ * a lock of the allocator. */
 class LiveServer {
   public:
     /** Makes the socket; one that a killed run has left there is replaced.
