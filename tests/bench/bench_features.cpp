@@ -183,6 +183,23 @@ void stageDepth(benchmark::State& state) {
 }
 BENCHMARK(stageDepth)->Unit(benchmark::kMillisecond);
 
+/** A thousand patches found half a pixel from where they were looked for. */
+void stageAlignment(benchmark::State& state) {
+    const auto features = OrbExtractor(FeatureOptions{}).extract(texturedFrame().grey);
+    std::vector<Patch> moved = features.patches;
+    for (Patch& patch : moved) patch.corner += cv::Point2f(0.4F, -0.3F);
+    const PatchMotion motion{1, static_cast<float>(0.1 * state.range(0))};
+    std::size_t found = 0;
+    for (auto _ : state) {
+        found = 0;
+        for (std::size_t i = 0; i < moved.size(); ++i) {
+            found += alignPatch(features.patches[i], motion, moved[i]).has_value();
+        }
+    }
+    state.counters["found"] = static_cast<double>(found);
+}
+BENCHMARK(stageAlignment)->ArgName("turned")->Arg(0)->Arg(3)->Unit(benchmark::kMillisecond);
+
 /** The limit: moving as many bytes as extraction must touch, and nothing else. */
 void copyOfPyramidTraffic(benchmark::State& state) {
     const auto half = static_cast<std::size_t>(pyramidTraffic(FeatureOptions()) / 2);

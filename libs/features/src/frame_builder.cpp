@@ -70,6 +70,7 @@ Frame FrameBuilder::build(const RgbdImage& image) const {
                  }).share();
     OrbFeatures features = extractor_.extract(image.grey);
     frame.descriptors = std::move(features.descriptors);
+    frame.patches = std::move(features.patches);
     frame.keypoints.reserve(features.corners.size());
     const bool distorted = camera_.hasDistortion();
     for (const Corner& corner : features.corners) {

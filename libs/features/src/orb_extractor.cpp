@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <opencv2/imgproc.hpp>
 
 #include "fast_detector.h"
@@ -180,6 +181,17 @@ Descriptor describeCorner(const std::uint8_t* centre, const int* offsets) {
     return descriptor;
 }
 
+Patch patchAround(const cv::Mat& image, int x, int y, const cv::Point2f& corner) {
+    Patch patch;
+    patch.corner = corner;
+    for (int j = 0; j < Patch::side; ++j) {
+        std::memcpy(&patch.grey[Patch::side * j],
+                    image.ptr<std::uint8_t>(y - Patch::centre + j) + x - Patch::centre,
+                    Patch::side);
+    }
+    return patch;
+}
+
 int discreteOrientation(float angle) {
     const int index = static_cast<int>(std::lround(angle * orb_orientations / (2 * pi)));
     return (index + orb_orientations) % orb_orientations;
@@ -218,6 +230,7 @@ OrbFeatures OrbExtractor::extract(const cv::Mat& grey) const {
             features.corners.push_back({(corner.x + offset.x + 0.5f) * scale_x - 0.5f,
                                         (corner.y + offset.y + 0.5f) * scale_y - 0.5f, angle,
                                         static_cast<int>(l)});
+            features.patches.push_back(patchAround(level.sharp, corner.x, corner.y, offset));
             const int* offsets = &scratch.offsets[discreteOrientation(angle) * 2 * orb_bits];
             features.descriptors.push_back(
                 describeCorner(level.smooth.ptr<std::uint8_t>(corner.y) + corner.x, offsets));

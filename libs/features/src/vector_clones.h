@@ -1,5 +1,6 @@
 /** Hot loops are compiled twice, for the x86-64 baseline that Debian builds for and for AVX2; the
- *  machine takes what it can run. Integer arithmetic only, so that both give the same. */
+ *  machine takes what it can run. Integers, or floats lane by lane without fused products, so that
+ *  both give the same. */
 #pragma once
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && \
     !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)

@@ -107,7 +107,7 @@ std::vector<PoseEdge> LoopCloser::findLoops(int keyframe) {
 }
 
 std::optional<VerifiedLoop> LoopCloser::verify(int id, int candidate) {
-    const Frame& frame = map_.keyframe(id).frame;
+    Frame frame = map_.keyframe(id).frame;  // its keypoints move to where the candidate has them
     const auto aligned =
         alignWithKeyframe(frame, map_.keyframe(candidate), map_, camera_, options_);
     if (!aligned) return std::nullopt;
@@ -134,7 +134,7 @@ std::optional<VerifiedLoop> LoopCloser::verify(int id, int candidate) {
     return loop;
 }
 
-std::optional<LocatedFrame> LoopCloser::relocalise(const Frame& frame, Tracker& tracker) const {
+std::optional<LocatedFrame> LoopCloser::relocalise(Frame& frame, Tracker& tracker) const {
     int tried = 0;
     for (const PlaceVote& vote : index_.query(frame.descriptors)) {
         if (vote.votes < fewest_votes || tried >= relocalisation_candidates) break;

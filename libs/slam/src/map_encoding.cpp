@@ -2,6 +2,7 @@
 
 #include <Eigen/Cholesky>
 #include <cmath>
+#include <cstring>
 #include <string>
 
 namespace rgbd_graphslam {
@@ -30,6 +31,12 @@ Eigen::Vector3d getVector(ByteReader& in) {
     Eigen::Vector3d v;
     for (int i = 0; i < 3; ++i) v[i] = getFinite(in);
     return v;
+}
+
+int getOctave(ByteReader& in, int levels) {
+    const auto octave = in.get<std::uint8_t>();
+    if (octave >= levels) throw DamagedBytes("a pyramid level that does not exist");
+    return octave;
 }
 
 }  // namespace
@@ -112,6 +119,22 @@ Descriptor getDescriptor(ByteReader& in) {
     return descriptor;
 }
 
+void put(const LandmarkPatch& seen, ByteWriter& out) {
+    const Patch& patch = seen.patch;
+    out.put(static_cast<std::uint8_t>(seen.octave));
+    for (const float f : {patch.corner.x, patch.corner.y}) out.put(f);
+    out.putBytes({reinterpret_cast<const char*>(patch.grey.data()), patch.grey.size()});
+}
+
+LandmarkPatch getPatch(ByteReader& in, int levels) {
+    LandmarkPatch seen;
+    Patch& patch = seen.patch;
+    seen.octave = getOctave(in, levels);
+    for (float* f : {&patch.corner.x, &patch.corner.y}) *f = getFloat(in, Patch::centre);
+    std::memcpy(patch.grey.data(), in.getBytes(patch.grey.size()).data(), patch.grey.size());
+    return seen;
+}
+
 void put(const Camera& camera, ByteWriter& out) {
     out.put<std::int32_t>(camera.width);
     out.put<std::int32_t>(camera.height);
@@ -140,6 +163,7 @@ void put(const Frame& frame, ByteWriter& out) {
         const Keypoint& k = frame.keypoints[i];
         for (const float f : {k.u, k.v, k.depth_m, k.angle_rad}) out.put(f);
         out.put(static_cast<std::uint8_t>(k.octave));
+        putFlag(k.aligned, out);
         put(frame.descriptors[i], out);
     }
 }
@@ -156,9 +180,8 @@ Frame getFrame(ByteReader& in, const Camera& camera, int levels) {
         k.v = getFloat(in, 4 * largest_image_px);
         k.depth_m = getFloat(in, farthest_m);
         k.angle_rad = getFloat(in, two_turns_rad);
-        k.octave = in.get<std::uint8_t>();
-        if (k.octave >= levels)
-            throw DamagedBytes("a keypoint on a pyramid level that does not exist");
+        k.octave = getOctave(in, levels);
+        k.aligned = getFlag(in);
         frame.descriptors[i] = getDescriptor(in);
     }
     frame.grid = KeypointGrid(frame.keypoints, camera.width, camera.height);
@@ -207,6 +230,8 @@ void put(const Landmark& landmark, ByteWriter& out) {
     put(landmark.view_direction, out);
     out.put(landmark.level0_distance);
     put(landmark.descriptor, out);
+    putFlag(landmark.patch != nullptr, out);
+    if (landmark.patch) put(*landmark.patch, out);
     out.putCount(landmark.first_keyframe);
     out.put<std::int32_t>(landmark.times_expected);
     out.put<std::int32_t>(landmark.times_found);
@@ -217,13 +242,14 @@ void put(const Landmark& landmark, ByteWriter& out) {
     }
 }
 
-Landmark getLandmark(ByteReader& in, int id, std::vector<Keyframe>& keyframes) {
+Landmark getLandmark(ByteReader& in, int id, std::vector<Keyframe>& keyframes, int levels) {
     Landmark landmark;
     landmark.position = getVector(in);
     landmark.view_direction = getVector(in);
     landmark.level0_distance = getFinite(in);
     if (landmark.level0_distance <= 0) throw DamagedBytes("a distance that is not positive");
     landmark.descriptor = getDescriptor(in);
+    if (getFlag(in)) landmark.patch = std::make_shared<LandmarkPatch>(getPatch(in, levels));
     landmark.first_keyframe = getIndex(in, keyframes.size(), "keyframe");
     landmark.times_expected = getTally(in);
     landmark.times_found = getTally(in);

@@ -78,7 +78,8 @@ MapSnapshot decodeSnapshot(ByteReader& in) {
     checkCulled(snapshot.keyframes);
     const std::size_t landmarks = in.getCount(landmark_bytes);
     for (std::size_t id = 0; id < landmarks; ++id) {
-        snapshot.landmarks.push_back(getLandmark(in, static_cast<int>(id), snapshot.keyframes));
+        snapshot.landmarks.push_back(
+            getLandmark(in, static_cast<int>(id), snapshot.keyframes, snapshot.levels));
     }
     const std::size_t loops = in.getCount(edge_bytes);
     for (std::size_t i = 0; i < loops; ++i) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr int rounds = 3;
 constexpr int steps_a_round = 5;
-constexpr double converged_step = 1e-6;  // m and rad
+constexpr double converged_step = 1e-5;  // m and rad
 
 struct NormalEquations {
     Matrix6d H = Matrix6d::Zero();
@@ -79,30 +79,20 @@ class Solver {
         equations.cost += robust_r.cost;
     }
 
-    double cost(const SE3& pose) const {
-        double sum = 0;
-        for (std::size_t i = 0; i < matches_.size(); ++i) {
-            if (!used_[i]) continue;
-            const Eigen::Vector3d p = pose * matches_[i].position;
-            if (p.z() < nearest_depth_m) continue;
-            const double chi2 = residual(camera_, p, matches_[i].measurement).squaredNorm();
-            sum += robust(matches_[i], chi2).cost;
-        }
-        return sum;
-    }
-
     void minimise() {
         double damping = 1e-6;
+        NormalEquations equations = build(pose_);
         for (int step = 0; step < steps_a_round; ++step) {
-            const NormalEquations equations = build(pose_);
             Matrix6d H = equations.H;
             H.diagonal() *= 1 + damping;
             H.diagonal().array() += 1e-9;
             const Vector6d delta = H.ldlt().solve(equations.b);
             if (!delta.allFinite()) return;
             const SE3 candidate = pose_.retract(delta);
-            if (cost(candidate) <= equations.cost) {
+            const NormalEquations there = build(candidate);
+            if (there.cost <= equations.cost) {
                 pose_ = candidate;
+                equations = there;
                 damping *= 0.1;
                 if (delta.norm() < converged_step) return;
             } else {

@@ -7,7 +7,8 @@ Measurement measurementOf(const Keypoint& keypoint, double octave_scale,
     Measurement m;
     m.u = keypoint.u;
     m.v = keypoint.v;
-    m.weight_px = 1 / (sensor.keypoint_sigma_px * octave_scale);
+    const double sigma_px = keypoint.aligned ? sensor.aligned_sigma_px : sensor.keypoint_sigma_px;
+    m.weight_px = 1 / (sigma_px * octave_scale);
     if (keypoint.depth_m > 0) {
         const double z = keypoint.depth_m;
         m.inverse_depth = 1 / z;

@@ -66,7 +66,7 @@ void SlamMap::load(ByteReader& in, const Camera& camera) {
     for (std::size_t id = 0; id < landmarks_.size(); ++id) {
         landmarks_[id].alive = getFlag(in);
         if (!landmarks_[id].alive) continue;
-        landmarks_[id] = getLandmark(in, static_cast<int>(id), keyframes_);
+        landmarks_[id] = getLandmark(in, static_cast<int>(id), keyframes_, levels());
         ++alive_;
     }
     loadDead(in);
@@ -98,6 +98,7 @@ int SlamMap::addKeyframe(Frame frame, const SE3& T_cam_world, int part, Link lin
     keyframe.frame = std::move(frame);
     keyframe.frame.view = {};
     keyframe.T_cam_world = T_cam_world;
+    if (!keyframes_.empty()) keyframes_.back().frame.patches = {};
     keyframes_.push_back(std::move(keyframe));
     votes_.push_back(0);
     return keyframes_.back().id;
@@ -119,9 +120,15 @@ void SlamMap::joinPart(int part, int into, const SE3& T_new_old) {
 }
 
 int SlamMap::addLandmark(const Eigen::Vector3d& position, int keyframe, int keypoint) {
+    Frame& frame = keyframes_[keyframe].frame;
     Landmark landmark;
     landmark.position = position;
     landmark.first_keyframe = keyframe;
+    if (!frame.patches.empty()) {
+        landmark.patch = std::make_shared<LandmarkPatch>(
+            LandmarkPatch{frame.patches[keypoint], frame.keypoints[keypoint].octave});
+        frame.keypoints[keypoint].aligned = true;
+    }
     ++alive_;
     const int id = freeLandmark();
     landmarks_[id] = std::move(landmark);
@@ -172,7 +179,7 @@ void SlamMap::removeObservation(int id, int keyframe) {
     const auto place = std::find_if(observations.begin(), observations.end(),
                                     [&](const Observation& o) { return o.keyframe == keyframe; });
     if (place == observations.end()) return;
-    keyframes_[keyframe].landmarks[place->keypoint] = no_landmark;
+    release(*place);
     observations.erase(place);
     if (observations.empty()) {
         bury(id);
@@ -184,10 +191,14 @@ void SlamMap::removeObservation(int id, int keyframe) {
 void SlamMap::removeLandmark(int id) {
     Landmark& landmark = landmarks_[id];
     if (!landmark.alive) return;
-    for (const Observation& o : landmark.observations) {
-        keyframes_[o.keyframe].landmarks[o.keypoint] = no_landmark;
-    }
+    for (const Observation& o : landmark.observations) release(o);
     bury(id);
+}
+
+void SlamMap::release(const Observation& o) {
+    Keyframe& keyframe = keyframes_[o.keyframe];
+    keyframe.landmarks[o.keypoint] = no_landmark;
+    keyframe.frame.keypoints[o.keypoint].aligned = false;
 }
 
 void SlamMap::fuse(int from, int into) {

@@ -5,6 +5,8 @@ namespace rgbd_graphslam {
 void SensorOptions::describe(OptionVisitor& v) {
     v.real("keypoint_sigma_px", keypoint_sigma_px, 0.05, 10, "px",
            "Error of a keypoint's place on pyramid level 0");
+    v.real("aligned_sigma_px", aligned_sigma_px, 0.05, 10, "px",
+           "The same once the keypoint is aligned with the patch of its landmark");
     v.real("depth_sigma_a", depth_noise.a, 0, 1, "m", "Depth error a + b (z - c)^2: constant part");
     v.real("depth_sigma_b", depth_noise.b, 0, 1, "1/m", "Depth error: growth with distance");
     v.real("depth_sigma_c", depth_noise.c, 0, 10, "m", "Depth error: distance of least error");
@@ -20,6 +22,8 @@ void TrackerOptions::describe(OptionVisitor& v) {
     v.integer("min_inliers", min_inliers, 6, 1000, "landmarks", "Fewest that make a pose believed");
     v.integer("max_local_keyframes", max_local_keyframes, 1, 200, "",
               "Keyframes whose landmarks are searched for");
+    v.flag("align_keypoints", align_keypoints,
+           "Place matched keypoints by the grey values of their landmarks' patches");
 }
 
 void KeyframeOptions::describe(OptionVisitor& v) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "keypoint_alignment.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
 #include "rgbd_graphslam/slam/matcher.h"
 
@@ -59,6 +60,7 @@ SE3 Tracker::lastPose() const {
 void Tracker::setLast(Frame frame, LocatedFrame located, int reference_keyframe, bool keep_motion) {
     motion_ = keep_motion && last_ ? located.T_cam_world * lastPose().inverse() : SE3();
     landmarks_before_ = last_ ? std::move(last_->landmarks) : std::vector<int>();
+    frame.patches = {};
     last_ = Last{std::move(frame), std::move(located.landmarks), reference_keyframe,
                  located.T_cam_world * map_.T_cam_world(reference_keyframe).inverse()};
 }
@@ -118,7 +120,7 @@ void Tracker::addMissed(std::vector<FeatureView>& features) const {
     }
 }
 
-std::optional<LocatedFrame> Tracker::track(const Frame& frame) {
+std::optional<LocatedFrame> Tracker::track(Frame& frame) {
     if (!last_) return std::nullopt;
     const SE3 predicted = motion_ * lastPose();
     for (const double window :
@@ -198,23 +200,28 @@ std::vector<int> Tracker::matchLast(const Frame& frame, const SE3& predicted, do
     return landmarks;
 }
 
-std::optional<LocatedFrame> Tracker::trackLocalMap(const Frame& frame, const SE3& T_cam_world,
+std::optional<LocatedFrame> Tracker::trackLocalMap(Frame& frame, const SE3& T_cam_world,
                                                    const std::vector<int>& landmarks,
                                                    PoseKernel kernel) {
     LocatedFrame located;
     located.landmarks = landmarks;
     searchLocalLandmarks(frame, T_cam_world, located.landmarks);
+    if (options_.tracker.align_keypoints) {
+        alignKeypoints(frame, located.landmarks, T_cam_world, camera_, map_);
+    }
     const auto found = collect(frame, located.landmarks, map_, options_.sensor);
     const PoseSolution solution = solvePose(camera_, found.matches, T_cam_world, kernel);
     if (solution.inliers < options_.tracker.min_inliers) return std::nullopt;
     located.T_cam_world = solution.T_cam_world;
     located.inliers = solution.inliers;
     for (std::size_t m = 0; m < found.keypoints.size(); ++m) {
-        int& landmark = located.landmarks[found.keypoints[m]];
+        const int keypoint = found.keypoints[m];
+        int& landmark = located.landmarks[keypoint];
         if (solution.inlier[m]) {
             ++map_.landmark(landmark).times_found;
         } else {
             landmark = no_landmark;
+            frame.keypoints[keypoint].aligned = false;
         }
     }
     return located;

@@ -65,8 +65,8 @@ PoseGraph VisualSlam::poseGraph() const {
 void VisualSlam::correct(const std::vector<SE3>& T_world_keyframe) {
     impl_->handOver();
     bool closed = false;
-    impl_->times.measure(
-        "correct", [&] { closed = impl_->closer.correct(T_world_keyframe, impl_->mapper); });
+    impl_->times.measure("correct",
+                         [&] { closed = impl_->closer.correct(T_world_keyframe, impl_->mapper); });
     if (!closed || !impl_->options.mapper.loop_adjustment) return;
     impl_->full_adjuster.start(impl_->options.mapper.loop_iterations);
     impl_->frames_since_loop = 0;

@@ -83,8 +83,7 @@ void VisualSlam::Implementation::start(Frame frame, KeptFrame& record) {
     beginAnew(std::move(frame), record);
 }
 
-std::optional<LocatedFrame> VisualSlam::Implementation::locate(const Frame& frame,
-                                                               KeptFrame& record) {
+std::optional<LocatedFrame> VisualSlam::Implementation::locate(Frame& frame, KeptFrame& record) {
     std::optional<LocatedFrame> located;
     times.measure("track", [&] { located = tracker.track(frame); });
     record.origin = FrameOrigin::Tracked;

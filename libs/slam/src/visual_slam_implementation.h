@@ -71,7 +71,7 @@ class VisualSlam::Implementation {
 
   private:
     void start(Frame frame, KeptFrame& record);
-    std::optional<LocatedFrame> locate(const Frame& frame, KeptFrame& record);
+    std::optional<LocatedFrame> locate(Frame& frame, KeptFrame& record);
     void keep(Frame frame, LocatedFrame located, KeptFrame& record);
     void stray(Frame frame, KeptFrame& record);
     void beginAnew(Frame frame, KeptFrame& record);

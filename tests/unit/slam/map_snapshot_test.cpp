@@ -16,7 +16,14 @@ MapSnapshot mapOfACircle(int frames = 40) {
     VisualSlam slam(SlamOptions{}, Camera{});
     for (int i = 0; i < frames; ++i) slam.track(world.view(onCircle(0.02 * i), i + 1, Camera{}));
     slam.finish();
-    return slam.snapshot();
+    MapSnapshot snapshot = slam.snapshot();
+    LandmarkPatch seen;  // such as the landmarks of images have
+    seen.octave = 3;
+    seen.patch.corner = {0.25F, -0.5F};
+    for (int i = 0; i < 256; ++i) seen.patch.grey[i] = static_cast<std::uint8_t>(i);
+    snapshot.landmarks[7].patch = std::make_shared<LandmarkPatch>(seen);
+    snapshot.keyframes[0].frame.keypoints[4].aligned = true;
+    return snapshot;
 }
 
 std::string encoded(const MapSnapshot& snapshot) {
@@ -44,6 +51,12 @@ TEST(MapSnapshot, comesBackAsItWas) {
         EXPECT_EQ(back.keyframes[k].frame.descriptors, kept.keyframes[k].frame.descriptors);
     }
     EXPECT_EQ(back.landmarks.size(), kept.landmarks.size());
+    ASSERT_TRUE(back.landmarks[7].patch);
+    EXPECT_EQ(back.landmarks[7].patch->octave, 3);
+    EXPECT_EQ(back.landmarks[7].patch->patch.corner, cv::Point2f(0.25F, -0.5F));
+    EXPECT_EQ(back.landmarks[7].patch->patch.grey, kept.landmarks[7].patch->patch.grey);
+    EXPECT_FALSE(back.landmarks[8].patch);
+    EXPECT_TRUE(back.keyframes[0].frame.keypoints[4].aligned);
 }
 
 TEST(MapSnapshot, leavesDeadLandmarksAndChainsOfParentsBehind) {

@@ -89,6 +89,39 @@ TEST(SlamMap, usesTheIdOfALandmarkAgainTwoKeyframesAfterItsDeath) {
     EXPECT_EQ(map.aliveLandmarks(), 2u);
 }
 
+TEST(SlamMap, alignedHoldsForTheKeypointOfOneLandmarkAlone) {
+    SlamMap map(1.2, 8);
+    Frame frame = frameOf(3);
+    frame.patches.resize(3);
+    frame.keypoints[1].aligned = true;  // with the first landmark, see below
+    const int first = map.addKeyframe(frameOf(3), SE3());
+    const int second = map.addKeyframe(frame, SE3());
+    const auto aligned = [&](int keypoint) {
+        return map.keyframe(second).frame.keypoints[keypoint].aligned;
+    };
+    const int old = map.addLandmark({0, 0, 1}, first, 0);
+    EXPECT_FALSE(map.landmark(old).patch) << "its keyframe had none";
+    map.addObservation(old, second, 1);
+    const int made = map.addLandmark({0, 0, 1}, second, 2);
+    EXPECT_TRUE(map.landmark(made).patch);
+    EXPECT_TRUE(aligned(1));
+    EXPECT_TRUE(aligned(2)) << "it is the place of the patch";
+    map.removeObservation(old, second);
+    EXPECT_FALSE(aligned(1));
+    map.fuse(made, old);
+    EXPECT_FALSE(aligned(2)) << "the other landmark has another patch";
+}
+
+TEST(SlamMap, keepsThePatchesOfTheLatestKeyframeOnly) {
+    SlamMap map(1.2, 8);
+    Frame frame = frameOf(3);
+    frame.patches.resize(3);
+    map.addKeyframe(frame, SE3());
+    EXPECT_EQ(map.keyframe(0).frame.patches.size(), 3u);
+    map.addKeyframe(frame, SE3());
+    EXPECT_TRUE(map.keyframe(0).frame.patches.empty());
+}
+
 TEST(SlamMap, culledKeyframeMovesWithItsParent) {
     SlamMap map(1.2, 8);
     map.addKeyframe(frameOf(1), SE3());

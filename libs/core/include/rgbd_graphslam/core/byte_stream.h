@@ -42,6 +42,8 @@ class ByteWriter {
     /** Number of items that follow, 32 bits. */
     void putCount(std::size_t count) { put(static_cast<std::uint32_t>(count)); }
 
+    void putBytes(std::string_view bytes) { bytes_ += bytes; }
+
     void putText(const std::string& text) {
         putCount(text.size());
         bytes_ += text;
@@ -85,10 +87,10 @@ class ByteReader {
         return count;
     }
 
-    std::string getText() {
-        const std::size_t length = getCount(1);
-        return {take(length), length};
-    }
+    /** \return a view of the bytes that are read */
+    std::string_view getBytes(std::size_t count) { return {take(count), count}; }
+
+    std::string getText() { return std::string(getBytes(getCount(1))); }
 
     std::size_t left() const { return bytes_.size() - position_; }
 

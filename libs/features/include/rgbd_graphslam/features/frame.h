@@ -7,6 +7,7 @@
 
 #include "rgbd_graphslam/features/dense_view.h"
 #include "rgbd_graphslam/features/descriptor.h"
+#include "rgbd_graphslam/features/patch.h"
 #include "rgbd_graphslam/geometry/se3.h"
 
 namespace rgbd_graphslam {
@@ -21,6 +22,8 @@ struct Keypoint {
     float angle_rad = 0;
     /** Pyramid level, 0 = full size. */
     int octave = 0;
+    /** Placed by the patch of the landmark that it shows, or itself the place of that patch. */
+    bool aligned = false;
 };
 
 /** Keypoints sorted into square cells for windowed search. */
@@ -61,6 +64,8 @@ struct Frame {
     double stamp_s = 0;
     std::vector<Keypoint> keypoints;
     std::vector<Descriptor> descriptors;
+    /** Only until the frame has been tracked and its landmarks made. */
+    std::vector<Patch> patches;
     KeypointGrid grid;
     /** The image as a whole, made when it is first asked for: most frames are tracked without.
      *  Not valid in keyframes. */

@@ -6,6 +6,7 @@
 
 #include "rgbd_graphslam/features/descriptor.h"
 #include "rgbd_graphslam/features/feature_options.h"
+#include "rgbd_graphslam/features/patch.h"
 
 namespace rgbd_graphslam {
 
@@ -19,6 +20,7 @@ struct Corner {
 struct OrbFeatures {
     std::vector<Corner> corners;
     std::vector<Descriptor> descriptors;
+    std::vector<Patch> patches;
 };
 
 /** FAST-9 (Rosten and Drummond, ECCV 2006) on an image pyramid, spread evenly over cells, with

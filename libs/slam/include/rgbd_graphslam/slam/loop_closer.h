@@ -32,7 +32,7 @@ class LoopCloser {
     std::vector<PoseEdge> findLoops(int keyframe);
 
     /** Finds a frame anywhere in the map, without any idea of its pose. */
-    std::optional<LocatedFrame> relocalise(const Frame& frame, Tracker& tracker) const;
+    std::optional<LocatedFrame> relocalise(Frame& frame, Tracker& tracker) const;
 
     /** Moves keyframes, and landmarks with the keyframe that saw them last; then fuses what the
      *  loops since the last call brought together.

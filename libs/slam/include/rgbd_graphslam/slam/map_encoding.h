@@ -14,10 +14,10 @@ namespace rgbd_graphslam {
 constexpr int most_levels = 32;
 
 // Sizes on disk, for checking counts before anything is allocated.
-constexpr std::size_t keypoint_bytes = 4 * sizeof(float) + 1 + sizeof(Descriptor);
+constexpr std::size_t keypoint_bytes = 4 * sizeof(float) + 2 + sizeof(Descriptor);
 constexpr std::size_t pose_bytes = 12 * sizeof(double);
 constexpr std::size_t keyframe_bytes = sizeof(double) + 2 * 4 + pose_bytes + 2;
-constexpr std::size_t landmark_bytes = 7 * sizeof(double) + sizeof(Descriptor) + 4 * 4;
+constexpr std::size_t landmark_bytes = 7 * sizeof(double) + sizeof(Descriptor) + 1 + 4 * 4;
 constexpr std::size_t edge_bytes = pose_bytes + 21 * sizeof(double) + 3 * 4;
 
 double getFinite(ByteReader& in);
@@ -48,6 +48,9 @@ SE3 decodePose(ByteReader& in);
 void put(const Descriptor& descriptor, ByteWriter& out);
 Descriptor getDescriptor(ByteReader& in);
 
+void put(const LandmarkPatch& seen, ByteWriter& out);
+LandmarkPatch getPatch(ByteReader& in, int levels);
+
 void put(const Camera& camera, ByteWriter& out);
 Camera getCamera(ByteReader& in);
 
@@ -66,7 +69,7 @@ Keyframe getKeyframe(ByteReader& in, int id, std::size_t keyframes, const Camera
 
 void put(const Landmark& landmark, ByteWriter& out);
 /** Notes the observations at the keyframes, too. */
-Landmark getLandmark(ByteReader& in, int id, std::vector<Keyframe>& keyframes);
+Landmark getLandmark(ByteReader& in, int id, std::vector<Keyframe>& keyframes, int levels);
 
 /** All but its kind. */
 void put(const PoseEdge& edge, ByteWriter& out);

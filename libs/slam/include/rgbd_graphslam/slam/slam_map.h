@@ -2,6 +2,7 @@
 #pragma once
 #include <cstdint>
 #include <deque>
+#include <memory>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,12 @@ struct Observation {
     int keypoint = 0;
 };
 
+/** How the keyframe that found a landmark saw it: what later keypoints are aligned with. */
+struct LandmarkPatch {
+    Patch patch;
+    int octave = 0;
+};
+
 /** A point of the world that keyframes see. Its appearance is that of the latest keyframe that saw
  *  it, which is the view nearest to what tracking will meet. */
 struct Landmark {
@@ -27,6 +34,8 @@ struct Landmark {
     /** Distance at which it would be seen on pyramid level 0, m. */
     double level0_distance = 1;
     Descriptor descriptor{};
+    /** None where the keyframe that found it had no patches. */
+    std::shared_ptr<const LandmarkPatch> patch;
     std::vector<Observation> observations;  // by rising keyframe
     int first_keyframe = 0;
     /** Frames that should have seen it, and did. */
@@ -82,11 +91,13 @@ class SlamMap {
      *  \throws DamagedBytes */
     void load(ByteReader& in, const Camera& camera);
 
-    /** The frame's small image is dropped. \param part of the map that it belongs to */
+    /** The frame's small image is dropped; its patches stay for addLandmark() until the next.
+     *  \param part of the map that it belongs to */
     int addKeyframe(Frame frame, const SE3& T_cam_world, int part = 0, Link link = Link::Tracked);
     /** Moves a part as a whole and makes it one with another.
      *  \param T_new_old maps its world coordinates to where they belong */
     void joinPart(int part, int into, const SE3& T_new_old);
+    /** Seen first by a keypoint that is free. */
     int addLandmark(const Eigen::Vector3d& position, int keyframe, int keypoint);
     /** The keypoint must be free and the landmark not yet seen by the keyframe. */
     void addObservation(int landmark, int keyframe, int keypoint);
@@ -124,6 +135,8 @@ class SlamMap {
     int levels() const { return static_cast<int>(scale_.size()); }
 
   private:
+    /** Sets a keypoint free. */
+    void release(const Observation& o);
     void refreshAppearance(int landmark);
     void bury(int landmark);
     void loadDead(ByteReader& in);

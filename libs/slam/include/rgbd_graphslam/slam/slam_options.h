@@ -11,6 +11,7 @@ namespace rgbd_graphslam {
 
 struct SensorOptions : Options {
     double keypoint_sigma_px = 0.8;
+    double aligned_sigma_px = 0.4;
     /** Larger close by than the sensor's own noise: registration and colour and depth taken at
      *  different moments displace depth too (doc/design-decisions.md). */
     DepthNoise depth_noise{0.005, 0.0019, 0.4};
@@ -27,6 +28,7 @@ struct TrackerOptions : Options {
     int max_hamming = 64;
     int min_inliers = 25;
     int max_local_keyframes = 20;
+    bool align_keypoints = true;
 
     const char* section() const override { return "TrackerOptions"; }
     const char* about() const override { return "Pose of every frame against the local map"; }

@@ -24,8 +24,9 @@ class Tracker {
     /** All arguments must outlive the tracker. */
     Tracker(const SlamOptions& options, const Camera& camera, SlamMap& map);
 
-    /** \return nothing when fewer than `min_inliers` landmarks agree with any pose */
-    std::optional<LocatedFrame> track(const Frame& frame);
+    /** \param frame keypoints move to the exact places of the landmarks that they show
+     *  \return nothing when fewer than `min_inliers` landmarks agree with any pose */
+    std::optional<LocatedFrame> track(Frame& frame);
 
     /** Pose by the points of the last frame alone, for where the map is not seen.
      *  \param predicted T_cam_world
@@ -34,9 +35,10 @@ class Tracker {
     std::optional<LocatedFrame> followLast(const Frame& frame, const SE3& predicted) const;
 
     /** Searches the landmarks around a pose and refines it; for a frame placed by other means.
+     *  \param frame as for track()
      *  \param landmarks known already, one a keypoint
      *  \param kernel Geman and McClure's for a pose that is good already */
-    std::optional<LocatedFrame> trackLocalMap(const Frame& frame, const SE3& T_cam_world,
+    std::optional<LocatedFrame> trackLocalMap(Frame& frame, const SE3& T_cam_world,
                                               const std::vector<int>& landmarks,
                                               PoseKernel kernel = PoseKernel::Huber);
 
