@@ -2,12 +2,16 @@
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
+#include <iterator>
 
 namespace rgbd_graphslam {
 namespace {
 
-/** Of the neighbourhood; the wide one serves where readings from afar lie in a thick layer. */
-constexpr double radii_cells[] = {2.4, 4.8};
+/** Of the neighbourhood; the wide ones serve where readings from afar lie in a thick layer. */
+constexpr double radii_cells[] = {2.4, 4.8, 9.6};
+/** The widest is for voxels that were read from afar or hardly: elsewhere it would take what stands
+ *  out of a wall for noise. In readings from 1 m. */
+constexpr double hardly_read = 1;
 /** Deviation across the plane over the smaller one along it; 1 is no plane at all. */
 constexpr double flatness = 0.45;
 
@@ -56,7 +60,7 @@ Eigen::Vector3d SurfaceCells::meanOf(const VoxelIndex& index, const Cell& cell) 
     return Eigen::Vector3d(index.x, index.y, index.z) + (cell.offset / cell.weight).cast<double>();
 }
 
-std::optional<Eigen::Vector3d> SurfaceCells::meanIn(const VoxelIndex& voxel) const {
+SurfaceCells::WeightedMean SurfaceCells::meanIn(const VoxelIndex& voxel) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weight = 0;
     const VoxelIndex low{2 * voxel.x, 2 * voxel.y, 2 * voxel.z};
@@ -65,15 +69,16 @@ std::optional<Eigen::Vector3d> SurfaceCells::meanIn(const VoxelIndex& voxel) con
                              sum += cell.weight * meanOf(index, cell);
                              weight += cell.weight;
                          });
-    if (weight <= 0) return std::nullopt;
-    return sum / weight;
+    return {weight > 0 ? sum / weight : sum, weight};
 }
 
 std::optional<Plane> SurfaceCells::planeAt(const VoxelIndex& voxel) const {
-    const auto middle = meanIn(voxel);
-    if (!middle) return std::nullopt;
+    const auto [middle, weight] = meanIn(voxel);
+    if (weight <= 0) return std::nullopt;
     for (const double radius : radii_cells) {
-        const auto plane = planeAround(*middle, radius);
+        const bool widest = radius == radii_cells[std::size(radii_cells) - 1];
+        if (widest && weight > hardly_read) break;
+        const auto plane = planeAround(middle, radius);
         if (plane) return plane;
     }
     return std::nullopt;

@@ -142,6 +142,25 @@ TEST(DenseMapper, noiseThatSpillsIntoTheNextVoxelsIsTakenBack) {
     EXPECT_EQ(occupiedAlong(mapper.volume(), inside, 1, 40), 40);
 }
 
+TEST(DenseMapper, noiseOfAWallThatIsSeenFromAfarOnlyIsTakenBack) {
+    BoxRoom room;
+    room.walls.high.x() = 2.008;  // 8 mm within its voxels
+    room.furniture.clear();
+    DenseMapper mapper({}, smallCamera());
+    Noise noise;
+    for (const double y : {-0.4, 0., 0.4}) {
+        const SE3 T = lookingAlong({-2.4, y, 1.2}, 0, 0);
+        mapper.insert(T, render(room, smallCamera(), T, 0, &noise));
+    }
+    const Eigen::Vector3d before(1.975, -0.975, 1.525), inside(2.025, -0.975, 1.525);
+    const int spilled = occupiedAlong(mapper.volume(), before, 1, 40);
+    const int surface = occupiedAlong(mapper.volume(), inside, 1, 40);
+    ASSERT_GT(spilled, 20);
+    mapper.finish();
+    EXPECT_LT(occupiedAlong(mapper.volume(), before, 1, 40), spilled / 3);
+    EXPECT_GT(occupiedAlong(mapper.volume(), inside, 1, 40), surface - 4);
+}
+
 TEST(DenseMapper, thinThingsAreNoSpill) {
     BoxRoom room;
     room.furniture.push_back({{0.856, -0.144, 0}, {0.894, -0.106, 1.6}, {0, 0, 0}});  // a pole

@@ -71,7 +71,11 @@ class SurfaceCells {
     static Eigen::Vector3d meanOf(const VoxelIndex& index, const Cell& cell);
     /** \param middle, radius in cells */
     std::optional<Plane> planeAround(const Eigen::Vector3d& middle, double radius) const;
-    std::optional<Eigen::Vector3d> meanIn(const VoxelIndex& voxel) const;
+    struct WeightedMean {
+        Eigen::Vector3d mean;  // as by meanOf
+        double weight;         // 0 without readings
+    };
+    WeightedMean meanIn(const VoxelIndex& voxel) const;
 
     double voxel_m_;
     VoxelTable<Cell> cells_;
