@@ -15,7 +15,9 @@
 namespace rgbd_graphslam {
 namespace {
 
-/** Nothing without content. \param title plain text \param content HTML */
+/** Nothing without content.
+ *  \param title plain text
+ *  \param content HTML */
 std::string section(const std::string& title, const std::string& content,
                     const std::string& css_class = {}) {
     if (content.empty()) return {};

@@ -9,7 +9,8 @@ namespace rgbd_graphslam {
  */
 class KeyframeSheet {
   public:
-    /** \param keyframe its number \param seconds since the first frame
+    /** \param keyframe its number
+     *  \param seconds since the first frame
      *  \param color CV_8UC3, BGR */
     void add(int keyframe, double seconds, const cv::Mat& color);
 

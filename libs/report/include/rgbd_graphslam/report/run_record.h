@@ -57,7 +57,8 @@ struct RunRecord {
     std::size_t count(FrameState state) const;
 };
 
-/** \param run_folder of rgbd-slam \param map_folder where map.png and grid.png are
+/** \param run_folder of rgbd-slam
+ *  \param map_folder where map.png and grid.png are
  *  \throws Error naming the file that is missing or makes no sense */
 RunRecord readRunRecord(const std::string& run_folder, const std::string& map_folder);
 

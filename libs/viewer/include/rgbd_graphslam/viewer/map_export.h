@@ -17,12 +17,14 @@ const char* extensionOf(ExportFormat format);
 std::string freeName(const std::filesystem::path& folder, const std::string& stem,
                      const std::string& extension);
 
-/** \param points world, m \param format Ply or Pcd
+/** \param points world, m
+ *  \param format Ply or Pcd
  *  \throws Error when there is no point, or the file cannot be written */
 void exportPoints(const Vertices& points, ExportFormat format, const std::string& path);
 
 /** The octree of a run without the leaves whose centres are higher than `highest_m`.
- *  \param folder of the run \param format ColorOctree or BinaryOctree
+ *  \param folder of the run
+ *  \param format ColorOctree or BinaryOctree
  *  \throws Error when the run has none, or the file cannot be written */
 void exportOctree(const std::string& folder, double highest_m, ExportFormat format,
                   const std::string& path);

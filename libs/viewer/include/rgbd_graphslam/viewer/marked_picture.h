@@ -13,10 +13,12 @@ struct PictureMark {
     Rgba color{};
 };
 
-/** The image as large as it fits into a size, in the middle, with a square at each mark. Done by
- * the processor: without a graphics card, nanovg takes longer for a thousand marks than for all
- * else. \param image BGR, not empty \param size_px of the result \param margin colour of what the
- * image leaves free \return RGBA */
+/** The image as large as it fits into a size, in the middle, with a square at each mark. The
+ *  processor paints it: a thousand marks would take nanovg long without a graphics card.
+ *  \param image BGR, not empty
+ *  \param size_px of the result
+ *  \param margin colour of what the image leaves free
+ *  \return RGBA */
 cv::Mat4b fittedPicture(const cv::Mat3b& image, const std::vector<PictureMark>& marks,
                         const cv::Size& size_px, const Rgba& margin);
 

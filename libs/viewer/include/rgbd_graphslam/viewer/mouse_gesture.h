@@ -15,7 +15,8 @@ class MouseGesture {
 
     void press(const Eigen::Vector2i& pixel, Button button);
     bool pressed() const { return pressed_; }
-    /** \param pixel where the mouse is now \param shift lets the left button move, too */
+    /** \param pixel where the mouse is now
+     *  \param shift lets the left button move, too */
     Drag drag(const Eigen::Vector2i& pixel, bool shift);
     Click release(TimePoint now);
 
