@@ -34,7 +34,7 @@ Eigen::Vector2d Camera::undistort(const Eigen::Vector2d& seen) const {
 }
 
 bool Camera::undoesDistortion() const {
-    constexpr int steps = 16;
+    constexpr int steps = 8;
     constexpr double most_off_px = 1;
     if (!hasDistortion()) return true;
     for (int row = 0; row <= steps; ++row) {

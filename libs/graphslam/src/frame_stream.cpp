@@ -24,7 +24,7 @@ using mrpt::obs::CObservation3DRangeScan;
 namespace {
 
 void checkSize(const RgbdImage& image, const CObservation3DRangeScan& first, std::size_t index) {
-    const Camera camera = cameraOf(first);
+    const Camera camera = toCamera(first.cameraParamsIntensity);
     if (image.depth.cols == camera.width && image.depth.rows == camera.height) return;
     throw Error("frame " + std::to_string(index) + " is " + std::to_string(image.depth.cols) + "x" +
                     std::to_string(image.depth.rows) + " pixels, its camera's calibration is for " +
