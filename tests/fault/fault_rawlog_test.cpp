@@ -183,6 +183,22 @@ TEST_F(FaultRawlog, textsAndListsTakeNoMoreMemoryThanTheFileHas) {
     EXPECT_GT(refused, static_cast<int>(whole.size() / 3));
 }
 
+/** Nor when it is refused: MRPT's destructor makes room for more then. */
+TEST_F(FaultRawlog, pointsTakeNoMoreMemoryThanTheFileHas) {
+    const std::string points("\x34\x12\0\0", 4), too_many("\xff\xff\xff\x0f", 4);
+    film_[1]->resizePoints3DVectors(0x1234);
+    film_[1]->hasPoints3D = true;
+    write(Film{film_[0], film_[1]});
+    std::string bytes = readText(rawlog()), error;
+    ASSERT_EQ(readAll(error), 2u) << error;
+    const std::size_t at = bytes.rfind(points);
+    ASSERT_NE(at, std::string::npos);
+    folder_.write("a.rawlog", bytes.replace(at, too_many.size(), too_many));
+    const LittleMemory while_reading;
+    EXPECT_EQ(readAll(error), 1u);
+    EXPECT_THAT(error, HasSubstr("more memory than there is"));
+}
+
 /** Asked for in one block this is more than any machine of today grants. */
 TEST_F(FaultRawlog, aSizeThatNoFrameHas) {
     const std::string rows_and_columns("\xf0\0\0\0\x40\1\0\0", 8);

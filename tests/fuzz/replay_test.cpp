@@ -59,7 +59,7 @@ TEST_P(FuzzReplay, oneByteChangedAnywhere) {
     }
 }
 
-/** Others with --gtest_random_seed. */
+/** Others with --gtest_shuffle --gtest_random_seed=N. */
 TEST_P(FuzzReplay, someBytesChangedAtRandom) {
     std::mt19937 random(static_cast<unsigned>(testing::UnitTest::GetInstance()->random_seed()));
     for (const std::string& seed : seedsOf(GetParam().name)) {

@@ -2,6 +2,7 @@
 
 #include <dlfcn.h>
 #include <mrpt/core/aligned_allocator.h>
+#include <mrpt/obs/CObservation3DRangeScan.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
@@ -124,6 +125,16 @@ CArchive& operator>>(CArchive& in, std::vector<std::string>& list) {
 }
 
 }  // namespace mrpt::serialization
+
+void mrpt::obs::CObservation3DRangeScan::resizePoints3DVectors(std::size_t points) {
+    using namespace rgbd_graphslam;
+    using Function = void (*)(CObservation3DRangeScan*, std::size_t);
+    static const auto original = reinterpret_cast<Function>(
+        dlsym(RTLD_NEXT, "_ZN4mrpt3obs23CObservation3DRangeScan21resizePoints3DVectorsEm"));
+    constexpr std::size_t bytes_a_point = 3 * sizeof(float) + 2 * sizeof(std::uint16_t);
+    if (points > most_bytes_at_once / bytes_a_point) throw RefusedMemory();
+    original(this, points);
+}
 
 extern "C" jpeg_error_mgr* jpeg_std_error(jpeg_error_mgr* errors) {
     using Function = jpeg_error_mgr* (*)(jpeg_error_mgr*);
