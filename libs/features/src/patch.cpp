@@ -123,13 +123,18 @@ RGBD_INLINE void sampleUpright(const Patch& reference, FramedWindow& window) {
 
 /** \return whether the template can be made from the patch, and tells a place */
 RGBD_INLINE bool makeTemplate(const Patch& reference, const PatchMotion& motion, Template& t) {
-    const float c = motion.scale * std::cos(motion.roll_rad);
-    const float s = motion.scale * std::sin(motion.roll_rad);
+    float c = motion.scale * std::cos(motion.roll_rad);
+    float s = motion.scale * std::sin(motion.roll_rad);
+    const bool upright = std::abs(c - 1) < negligible_turn && std::abs(s) < negligible_turn;
+    if (upright) {
+        c = 1;
+        s = 0;
+    }
     const float reach = 0.5f * (framed - 1) * (std::abs(c) + std::abs(s)) +
                         std::max(std::abs(reference.corner.x), std::abs(reference.corner.y));
     if (!(reach < Patch::centre - 1)) return false;
     FramedWindow window;
-    if (std::abs(c - 1) < negligible_turn && std::abs(s) < negligible_turn) {
+    if (upright) {
         sampleUpright(reference, window);
     } else {
         sampleTurned(reference, c, s, window);

@@ -74,6 +74,17 @@ TEST(Patch, isNotFoundWhereGreyValuesTellNoPlace) {
     EXPECT_FALSE(alignPatch(patchAt(waves, 0, 0), {}, patchAt(other, 0, 0)));
 }
 
+/** Alignment moves corners away from the pixel in the centre. */
+TEST(Patch, isNotMadeOfPixelsBeyondItsBorder) {
+    for (const float x : {-3.2F, 0.0F, 3.2F}) {
+        for (const float y : {-3.2F, 3.2F}) {
+            const Patch patch = patchAt(waves, 0, 0, {x, y});
+            EXPECT_FALSE(alignPatch(patch, {0.87F, 0}, patch)) << x << ", " << y;
+            EXPECT_FALSE(alignPatch(patch, {1, 0.1F}, patch)) << x << ", " << y;
+        }
+    }
+}
+
 TEST(Patch, isNotLookedForBeyondItsBorder) {
     const Patch patch = patchAt(waves, 0, 0);
     EXPECT_TRUE(alignPatch(patch, {}, patch));

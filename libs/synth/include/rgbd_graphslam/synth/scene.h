@@ -42,8 +42,8 @@ const Skin kHidden{-1};
 /** Skins of a box whose front looks along +x of its own frame. */
 struct BoxSkin {
     Skin front, back, sides, top, bottom;
-    BoxSkin(Skin all) : front(all), back(all), sides(all), top(all), bottom(all) {}
-    BoxSkin(Skin front_skin, Skin others) : BoxSkin(others) { front = front_skin; }
+    BoxSkin(const Skin& all) : front(all), back(all), sides(all), top(all), bottom(all) {}
+    BoxSkin(const Skin& front_skin, const Skin& others) : BoxSkin(others) { front = front_skin; }
 };
 
 struct Lamp {
