@@ -26,13 +26,22 @@ mrpt::obs::CObservation3DRangeScan::Ptr smallFrame(double stamp_s) {
     return frame;
 }
 
+/** MRPT's observations start with the time of now: a seed of another moment would have other bytes,
+ *  and what a random change finds in it would not come again. */
+template <class Observation>
+Observation observedAt(double stamp_s) {
+    Observation observation;
+    observation.timestamp = mrpt::Clock::fromDouble(stamp_s);
+    return observation;
+}
+
 void writeSmallRawlog(const std::string& path, RawlogStorage storage) {
     writeRawlog(path, storage, [](RawlogWriter& writer) {
-        mrpt::obs::CObservationRobotPose truth;
+        auto truth = observedAt<mrpt::obs::CObservationRobotPose>(1);
         truth.sensorLabel = ground_truth_label;
         writer.write(truth);
         writer.write(*smallFrame(1));
-        mrpt::obs::CObservationIMU imu;
+        auto imu = observedAt<mrpt::obs::CObservationIMU>(1.5);
         writer.write(imu);
         writer.write(*smallFrame(2));
     });
