@@ -41,6 +41,7 @@ std::vector<ListedImage> usableImages(const RgbdSequence& sequence,
 
 std::vector<double> stampsOf(const std::vector<ListedImage>& images) {
     std::vector<double> stamps;
+    stamps.reserve(images.size());
     for (const auto& image : images) stamps.push_back(image.stamp_s);
     return stamps;
 }

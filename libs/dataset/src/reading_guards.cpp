@@ -76,51 +76,52 @@ void* mrpt::aligned_malloc(std::size_t size, std::size_t alignment) {
 namespace mrpt::serialization {
 using rgbd_graphslam::readAsItComes;
 
-CArchive& operator>>(CArchive& in, std::string& text) {
-    return readAsItComes(in, text);
+// Parameters are called as where MRPT declares them.
+CArchive& operator>>(CArchive& in, std::string& str) {
+    return readAsItComes(in, str);
 }
-CArchive& operator>>(CArchive& in, std::vector<float>& list) {
-    return readAsItComes(in, list);
+CArchive& operator>>(CArchive& s, std::vector<float>& a) {
+    return readAsItComes(s, a);
 }
-CArchive& operator>>(CArchive& in, std::vector<double>& list) {
-    return readAsItComes(in, list);
+CArchive& operator>>(CArchive& s, std::vector<double>& a) {
+    return readAsItComes(s, a);
 }
-CArchive& operator>>(CArchive& in, std::vector<std::int8_t>& list) {
-    return readAsItComes(in, list);
+CArchive& operator>>(CArchive& in, std::vector<std::int8_t>& a) {
+    return readAsItComes(in, a);
 }
-CArchive& operator>>(CArchive& in, std::vector<std::uint8_t>& list) {
-    return readAsItComes(in, list);
+CArchive& operator>>(CArchive& in, std::vector<std::uint8_t>& a) {
+    return readAsItComes(in, a);
 }
-CArchive& operator>>(CArchive& in, std::vector<std::int16_t>& list) {
-    return readAsItComes(in, list);
+CArchive& operator>>(CArchive& in, std::vector<std::int16_t>& a) {
+    return readAsItComes(in, a);
 }
-CArchive& operator>>(CArchive& in, std::vector<std::uint16_t>& list) {
-    return readAsItComes(in, list);
+CArchive& operator>>(CArchive& in, std::vector<std::uint16_t>& a) {
+    return readAsItComes(in, a);
 }
-CArchive& operator>>(CArchive& in, std::vector<std::int32_t>& list) {
-    return readAsItComes(in, list);
+CArchive& operator>>(CArchive& in, std::vector<std::int32_t>& a) {
+    return readAsItComes(in, a);
 }
-CArchive& operator>>(CArchive& in, std::vector<std::uint32_t>& list) {
-    return readAsItComes(in, list);
+CArchive& operator>>(CArchive& in, std::vector<std::uint32_t>& a) {
+    return readAsItComes(in, a);
 }
-CArchive& operator>>(CArchive& in, std::vector<std::int64_t>& list) {
-    return readAsItComes(in, list);
+CArchive& operator>>(CArchive& in, std::vector<std::int64_t>& a) {
+    return readAsItComes(in, a);
 }
-CArchive& operator>>(CArchive& in, std::vector<std::uint64_t>& list) {
-    return readAsItComes(in, list);
+CArchive& operator>>(CArchive& s, std::vector<std::uint64_t>& a) {
+    return readAsItComes(s, a);
 }
 
-CArchive& operator>>(CArchive& in, std::vector<bool>& list) {
+CArchive& operator>>(CArchive& in, std::vector<bool>& a) {
     std::vector<std::uint8_t> bytes;
     in >> bytes;
-    list.clear();
-    for (const std::uint8_t byte : bytes) list.push_back(byte != 0);
+    a.clear();
+    for (const std::uint8_t byte : bytes) a.push_back(byte != 0);
     return in;
 }
 
-CArchive& operator>>(CArchive& in, std::vector<std::string>& list) {
-    list.clear();
-    for (auto left = in.ReadAs<std::uint32_t>(); left > 0; --left) in >> list.emplace_back();
+CArchive& operator>>(CArchive& in, std::vector<std::string>& a) {
+    a.clear();
+    for (auto left = in.ReadAs<std::uint32_t>(); left > 0; --left) in >> a.emplace_back();
     return in;
 }
 

@@ -32,6 +32,7 @@ std::vector<std::size_t> finiteInTimeOrder(const std::vector<double>& stamps) {
 std::vector<double> picked(const std::vector<double>& stamps, const std::vector<std::size_t>& order,
                            double offset) {
     std::vector<double> result;
+    result.reserve(order.size());
     for (const std::size_t i : order) result.push_back(stamps[i] + offset);
     return result;
 }

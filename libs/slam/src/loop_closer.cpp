@@ -22,12 +22,12 @@ LoopCloser::LoopCloser(const SlamOptions& options, const Camera& camera, SlamMap
       index_(options.loops.bits_hamming),
       verifier_(options, camera, map) {}
 
-std::vector<Descriptor> LoopCloser::placeDescriptors(int id) const {
-    const Keyframe& keyframe = map_.keyframe(id);
+std::vector<Descriptor> LoopCloser::placeDescriptors(int keyframe) const {
+    const Keyframe& k = map_.keyframe(keyframe);
     std::vector<Descriptor> descriptors;
-    for (std::size_t i = 0; i < keyframe.landmarks.size(); ++i) {
-        if (keyframe.landmarks[i] != no_landmark) {
-            descriptors.push_back(keyframe.frame.descriptors[i]);
+    for (std::size_t i = 0; i < k.landmarks.size(); ++i) {
+        if (k.landmarks[i] != no_landmark) {
+            descriptors.push_back(k.frame.descriptors[i]);
         }
     }
     return descriptors;
@@ -106,8 +106,8 @@ std::vector<PoseEdge> LoopCloser::findLoops(int keyframe) {
     return {edge};
 }
 
-std::optional<VerifiedLoop> LoopCloser::verify(int id, int candidate) {
-    Frame frame = map_.keyframe(id).frame;  // its keypoints move to where the candidate has them
+std::optional<VerifiedLoop> LoopCloser::verify(int keyframe, int candidate) {
+    Frame frame = map_.keyframe(keyframe).frame;  // its keypoints move to the candidate's
     const auto aligned =
         alignWithKeyframe(frame, map_.keyframe(candidate), map_, camera_, options_);
     if (!aligned) return std::nullopt;
@@ -117,7 +117,7 @@ std::optional<VerifiedLoop> LoopCloser::verify(int id, int candidate) {
     const auto matches = matchesOf(frame, located->landmarks, map_, options_.sensor);
     VerifiedLoop loop;
     loop.edge.from = candidate;
-    loop.edge.to = id;
+    loop.edge.to = keyframe;
     loop.edge.T_from_to = map_.T_cam_world(candidate) * located->T_cam_world.inverse();
     loop.edge.information = solvePose(camera_, matches, located->T_cam_world).information;
     loop.edge.kind = EdgeKind::Loop;

@@ -146,11 +146,11 @@ int SlamMap::freeLandmark() {
     return static_cast<int>(landmarks_.size()) - 1;
 }
 
-void SlamMap::bury(int id) {
-    landmarks_[id].observations = {};
-    landmarks_[id].alive = false;
+void SlamMap::bury(int landmark) {
+    landmarks_[landmark].observations = {};
+    landmarks_[landmark].alive = false;
     --alive_;
-    dead_.emplace_back(id, keyframes_.size());
+    dead_.emplace_back(landmark, keyframes_.size());
 }
 
 void SlamMap::addObservation(int landmark, int keyframe, int keypoint) {
@@ -163,36 +163,36 @@ void SlamMap::addObservation(int landmark, int keyframe, int keypoint) {
     refreshAppearance(landmark);
 }
 
-void SlamMap::refreshAppearance(int id) {
-    Landmark& landmark = landmarks_[id];
-    const Observation& latest = landmark.observations.back();
+void SlamMap::refreshAppearance(int landmark) {
+    Landmark& refreshed = landmarks_[landmark];
+    const Observation& latest = refreshed.observations.back();
     const Keyframe& keyframe = keyframes_[latest.keyframe];
-    const Eigen::Vector3d to_camera = keyframe.T_cam_world.inverse().t - landmark.position;
+    const Eigen::Vector3d to_camera = keyframe.T_cam_world.inverse().t - refreshed.position;
     const double distance = std::max(to_camera.norm(), 1e-6);
-    landmark.view_direction = to_camera / distance;
-    landmark.level0_distance = distance * scale_[keyframe.frame.keypoints[latest.keypoint].octave];
-    landmark.descriptor = keyframe.frame.descriptors[latest.keypoint];
+    refreshed.view_direction = to_camera / distance;
+    refreshed.level0_distance = distance * scale_[keyframe.frame.keypoints[latest.keypoint].octave];
+    refreshed.descriptor = keyframe.frame.descriptors[latest.keypoint];
 }
 
-void SlamMap::removeObservation(int id, int keyframe) {
-    auto& observations = landmarks_[id].observations;
+void SlamMap::removeObservation(int landmark, int keyframe) {
+    auto& observations = landmarks_[landmark].observations;
     const auto place = std::find_if(observations.begin(), observations.end(),
                                     [&](const Observation& o) { return o.keyframe == keyframe; });
     if (place == observations.end()) return;
     release(*place);
     observations.erase(place);
     if (observations.empty()) {
-        bury(id);
+        bury(landmark);
     } else {
-        refreshAppearance(id);
+        refreshAppearance(landmark);
     }
 }
 
-void SlamMap::removeLandmark(int id) {
-    Landmark& landmark = landmarks_[id];
-    if (!landmark.alive) return;
-    for (const Observation& o : landmark.observations) release(o);
-    bury(id);
+void SlamMap::removeLandmark(int landmark) {
+    Landmark& removed = landmarks_[landmark];
+    if (!removed.alive) return;
+    for (const Observation& o : removed.observations) release(o);
+    bury(landmark);
 }
 
 void SlamMap::release(const Observation& o) {
@@ -211,26 +211,25 @@ void SlamMap::fuse(int from, int into) {
     }
 }
 
-void SlamMap::cull(int id, int parent) {
-    Keyframe& keyframe = keyframes_[id];
-    const std::vector<int> seen = keyframe.landmarks;
+void SlamMap::cull(int keyframe, int parent) {
+    Keyframe& culled = keyframes_[keyframe];
+    const std::vector<int> seen = culled.landmarks;
     for (const int landmark : seen) {
-        if (landmark != no_landmark) removeObservation(landmark, id);
+        if (landmark != no_landmark) removeObservation(landmark, keyframe);
     }
-    culled_.push_back(id);
-    keyframe.culled = true;
-    keyframe.parent = parent;
-    keyframe.T_cam_parent = keyframe.T_cam_world * T_cam_world(parent).inverse();
-    const double stamp_s = keyframe.frame.stamp_s;
-    keyframe.frame = Frame{};
-    keyframe.frame.stamp_s = stamp_s;
-    keyframe.landmarks = {};
+    culled_.push_back(keyframe);
+    culled.culled = true;
+    culled.parent = parent;
+    culled.T_cam_parent = culled.T_cam_world * T_cam_world(parent).inverse();
+    const double stamp_s = culled.frame.stamp_s;
+    culled.frame = Frame{};
+    culled.frame.stamp_s = stamp_s;
+    culled.landmarks = {};
 }
 
-SE3 SlamMap::T_cam_world(int id) const {
-    const Keyframe& keyframe = keyframes_[id];
-    return keyframe.culled ? keyframe.T_cam_parent * T_cam_world(keyframe.parent)
-                           : keyframe.T_cam_world;
+SE3 SlamMap::T_cam_world(int keyframe) const {
+    const Keyframe& k = keyframes_[keyframe];
+    return k.culled ? k.T_cam_parent * T_cam_world(k.parent) : k.T_cam_world;
 }
 
 void SlamMap::setPose(int keyframe, const SE3& T_cam_world) {

@@ -97,6 +97,7 @@ std::vector<TriangulatedPoint> triangulateBetween(const Camera& camera, const Sl
     const Eigen::Matrix3d F = fundamentalMatrix(camera, b.T_cam_world * a.T_cam_world.inverse());
     std::vector<int> candidates = unknownKeypoints(b);
     std::vector<double> sigma_px;
+    sigma_px.reserve(map.levels());
     for (int octave = 0; octave < map.levels(); ++octave) {
         sigma_px.push_back(options.sensor.keypoint_sigma_px * map.scaleOf(octave));
     }

@@ -88,7 +88,7 @@ void WeakTracker::save(ByteWriter& out) const {
 }
 
 void WeakTracker::load(ByteReader& in, const Camera& view_camera) {
-    const DenseView anchor = getView(in, view_camera);
+    DenseView anchor = getView(in, view_camera);
     anchor_ = {};
     if (!anchor.empty()) anchor_ = std::async(std::launch::deferred, [anchor] { return anchor; });
     last_reckoning_ = getReckoning(in);
