@@ -48,7 +48,6 @@ void startSlam(KeyframeGraph& graph, const mrpt::obs::CObservation3DRangeScan& f
     shared.T_base_cam = cameraOnRobot(frame);
     shared.slam = std::make_unique<VisualSlam>(shared.options, cameraOf(frame),
                                                std::move(start.map), start.use);
-    if (start.use == MapUse::Localise) return;
     for (const KeyframeView& keyframe : shared.slam->keyframes()) {
         graph.nodes[keyframe.id] = {};
         if (keyframe.id > 0) insert(shared.slam->odometryEdge(keyframe.id), graph);

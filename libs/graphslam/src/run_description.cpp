@@ -75,13 +75,13 @@ void describeLoops(const Trajectory& truth, RunState& run) {
     const std::vector<KeyframeView> keyframes = run.session.slam().keyframes();
     for (const PoseEdge& edge : run.session.slam().loops()) {
         ReportedLoop loop{edge.from, edge.to, edge.inliers, std::nullopt};
-        if (!run.job.localises() && std::min(edge.from, edge.to) >= run.first_keyframe) {
+        if (std::min(edge.from, edge.to) >= run.first_keyframe) {
             loop.error_m =
                 edgeErrorM(edge, keyframes[edge.from].stamp_s, keyframes[edge.to].stamp_s, truth);
         }
         report.loops.push_back(loop);
     }
-    if (truth.empty() || run.job.localises()) return;
+    if (truth.empty()) return;
     const auto is_false = [](const ReportedLoop& loop) {
         return loop.error_m && *loop.error_m > false_loop_m;
     };

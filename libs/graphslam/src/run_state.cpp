@@ -22,7 +22,7 @@ RunState::RunState(const SlamJob& slam_job, std::optional<SparseMap> start_map)
       stream(job.rawlog, job.options.run),
       session(makeSession(job, stream, start)),
       level(job.options.maps) {
-    if (!start || job.localises()) return;
+    if (!start) return;
     for (const KeyframeView& keyframe : session.slam().keyframes()) noteKeyframe(keyframe.id);
     first_keyframe = static_cast<int>(T_previous_keyframe.size());
 }
@@ -34,6 +34,7 @@ void RunState::noteKeyframe(int keyframe) {
 
 void RunState::keepPictures(int keyframe,
                             const mrpt::obs::CObservation3DRangeScan::Ptr& observation) {
+    if (job.localises()) return;
     const RgbdImage image = toRgbdImage(observation);
     keyframe_sheet.add(keyframe, *last_stamp_s - *first_stamp_s, image.color);
     if (!start) level.addKeyframe(keyframe, image, cameraOf(*observation));

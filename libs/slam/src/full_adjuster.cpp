@@ -17,11 +17,15 @@ FullAdjuster::FullAdjuster(const SlamOptions& options, const Camera& camera, Sla
 std::optional<MapAdjustment> FullAdjuster::wholeMap() const {
     std::vector<int> free;
     for (const Keyframe& keyframe : map_.keyframes()) {
-        if (!keyframe.culled && keyframe.id != 0) free.push_back(keyframe.id);
+        if (!keyframe.culled && !map_.held(keyframe.id)) free.push_back(keyframe.id);
     }
     if (free.empty()) return std::nullopt;
     auto landmarks = landmarksSeenBy(free, map_);
-    return MapAdjustment(map_, camera_, options_.sensor, std::move(free), {0},
+    std::vector<int> fixed;
+    for (const Covisibility& c : map_.observers(landmarks)) {
+        if (map_.held(c.keyframe)) fixed.push_back(c.keyframe);
+    }
+    return MapAdjustment(map_, camera_, options_.sensor, std::move(free), fixed,
                          std::move(landmarks));
 }
 

@@ -83,7 +83,8 @@ PoseGraph KeyframeEdges::graph(const std::vector<PoseEdge>& loops) const {
     PoseGraph graph;
     const int keyframes = static_cast<int>(map_.keyframes().size());
     for (int k = 0; k < keyframes; ++k) graph.nodes.push_back(map_.T_cam_world(k).inverse());
-    for (int k = 1; k < keyframes; ++k) {
+    graph.held = map_.heldCount();
+    for (int k = std::max(1, graph.held); k < keyframes; ++k) {
         const PoseEdge last_to_k = odometry(k);
         graph.edges.push_back(last_to_k);
         const std::vector<PoseEdge> farther = covisibility(last_to_k);

@@ -30,6 +30,7 @@ void LocalMapper::insert(int keyframe) {
     joinWithNeighbours(keyframe);
     cullLandmarks(keyframe);
     cullKeyframes(keyframe);
+    if (map_.heldCount() > 0) forgetOldest(keyframe);
     if (options_.mapper.local_adjustment && keyframe != 0) startAdjustment(keyframe);
 }
 
@@ -181,11 +182,24 @@ void LocalMapper::cullKeyframes(int id) {
     auto neighbours = map_.covisible(id);
     if (neighbours.size() > neighbours_culled) neighbours.resize(neighbours_culled);
     for (const Covisibility& c : neighbours) {
-        if (c.keyframe == 0 || c.keyframe >= id - 1) continue;
+        if (map_.held(c.keyframe) || c.keyframe >= id - 1) continue;
         if (redundancy(map_.keyframe(c.keyframe)) <= options_.keyframes.cull_share) continue;
         const auto others = map_.covisible(c.keyframe, 1);
         if (!others.empty()) map_.cull(c.keyframe, others.front().keyframe);
     }
+}
+
+/** Beside a held map only the latest keyframes are kept, so that memory stays flat. */
+void LocalMapper::forgetOldest(int newest) {
+    std::vector<int> living;
+    for (int id = map_.heldCount(); id <= newest; ++id) {
+        if (!map_.keyframe(id).culled) living.push_back(id);
+    }
+    if (static_cast<int>(living.size()) <= options_.mapper.localising_keyframes) return;
+    const auto seen_with = map_.covisible(living[0]);
+    const auto held = std::find_if(seen_with.begin(), seen_with.end(),
+                                   [&](const Covisibility& c) { return map_.held(c.keyframe); });
+    map_.cull(living[0], held == seen_with.end() ? living[1] : held->keyframe);
 }
 
 /** The newest keyframe and its best neighbours move; others that see the same points hold them. */
@@ -193,7 +207,7 @@ MapAdjustment LocalMapper::adjustmentAround(int id) const {
     std::vector<int> free = {id};
     for (const Covisibility& c : map_.covisible(id)) {
         if (static_cast<int>(free.size()) >= options_.mapper.window_keyframes) break;
-        if (c.keyframe != 0) free.push_back(c.keyframe);
+        if (!map_.held(c.keyframe)) free.push_back(c.keyframe);
     }
     std::sort(free.begin(), free.end());
     std::vector<int> landmarks = landmarksSeenBy(free, map_);

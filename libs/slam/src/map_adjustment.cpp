@@ -69,7 +69,8 @@ void MapAdjustment::apply(SlamMap& map) const {
         if (isStill(landmarks_[p], map)) map.landmark(landmarks_[p]).position = problem.points[p];
     }
     for (std::size_t o = 0; o < problem.observations.size(); ++o) {
-        if (!problem.observations[o].outlier) continue;
+        const bool doubted = problem.observations[o].outlier;
+        if (!doubted || observation_keyframe_[o] < map.heldCount()) continue;
         const int landmark = landmarks_[problem.observations[o].point];
         if (isStill(landmark, map)) map.removeObservation(landmark, observation_keyframe_[o]);
     }

@@ -225,6 +225,15 @@ Keyframe getKeyframe(ByteReader& in, int id, std::size_t keyframes, const Camera
     return keyframe;
 }
 
+void checkCulled(const std::vector<Keyframe>& keyframes) {
+    for (const Keyframe& keyframe : keyframes) {
+        if (!keyframe.culled) continue;
+        if (!keyframe.landmarks.empty() || keyframes[keyframe.parent].culled) {
+            throw DamagedBytes("a culled keyframe that is not tied to a living one");
+        }
+    }
+}
+
 void put(const Landmark& landmark, ByteWriter& out) {
     put(landmark.position, out);
     put(landmark.view_direction, out);

@@ -11,6 +11,12 @@ std::string pyramidText(int levels, double scale_factor) {
     return std::to_string(levels) + " pyramid levels of factor " + std::to_string(scale_factor);
 }
 
+/** Keypoints are undistorted, so lenses do not matter. */
+bool sameView(const Camera& a, const Camera& b) {
+    return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
+           a.cx == b.cx && a.cy == b.cy;
+}
+
 }  // namespace
 
 void requireFits(const MapSnapshot& map, const FeatureOptions& features, const Camera& camera,
@@ -21,14 +27,26 @@ void requireFits(const MapSnapshot& map, const FeatureOptions& features, const C
                         pyramidText(features.levels, features.scale_factor),
                     "use the config.ini of the map's folder");
     }
-    const bool same_camera = map.camera.width == camera.width &&
-                             map.camera.height == camera.height && map.camera.fx == camera.fx &&
-                             map.camera.fy == camera.fy && map.camera.cx == camera.cx &&
-                             map.camera.cy == camera.cy;
-    if (use == MapUse::Extend && !same_camera) {
+    if (use == MapUse::Extend && !sameView(map.camera, camera)) {
         throw Error("the map was made by a camera of another calibration, so it cannot be extended",
                     "localise in it, or make both rawlogs with one calibration");
     }
+}
+
+void seeWith(const Camera& camera, MapSnapshot& map) {
+    if (sameView(map.camera, camera)) return;
+    const auto seen = [&](const Keypoint& k) {
+        return camera.project(map.camera.unproject(k.u, k.v, 1));
+    };
+    for (Keyframe& keyframe : map.keyframes) {
+        for (Keypoint& k : keyframe.frame.keypoints) {
+            const Eigen::Vector2d pixel = seen(k);
+            k.u = static_cast<float>(pixel.x());
+            k.v = static_cast<float>(pixel.y());
+        }
+        keyframe.frame.grid = KeypointGrid(keyframe.frame.keypoints, camera.width, camera.height);
+    }
+    map.camera = camera;
 }
 
 }  // namespace rgbd_graphslam

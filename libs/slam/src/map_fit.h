@@ -12,4 +12,7 @@ namespace rgbd_graphslam {
 void requireFits(const MapSnapshot& map, const FeatureOptions& features, const Camera& camera,
                  MapUse use);
 
+/** Moves the keypoints to where a camera would have seen them from the same places. */
+void seeWith(const Camera& camera, MapSnapshot& map);
+
 }  // namespace rgbd_graphslam

@@ -3,29 +3,6 @@
 #include "rgbd_graphslam/slam/map_encoding.h"
 
 namespace rgbd_graphslam {
-namespace {
-
-void checkCulled(const std::vector<Keyframe>& keyframes) {
-    for (const Keyframe& keyframe : keyframes) {
-        if (!keyframe.culled) continue;
-        if (!keyframe.landmarks.empty() || keyframes[keyframe.parent].culled) {
-            throw DamagedBytes("a culled keyframe that is not tied to a living one");
-        }
-    }
-}
-
-/** Parents may have been culled later. */
-void tieToTheLiving(Keyframe& keyframe, const SlamMap& map) {
-    if (!map.keyframe(keyframe.parent).culled) return;
-    while (map.keyframe(keyframe.parent).culled) {
-        keyframe.parent = map.keyframe(keyframe.parent).parent;
-    }
-    keyframe.T_cam_parent =
-        map.T_cam_world(keyframe.id) * map.T_cam_world(keyframe.parent).inverse();
-}
-
-}  // namespace
-
 MapSnapshot takeSnapshot(const SlamMap& map, const Camera& camera, double scale_factor,
                          std::vector<PoseEdge> loops) {
     MapSnapshot snapshot;
@@ -41,7 +18,6 @@ MapSnapshot takeSnapshot(const SlamMap& map, const Camera& camera, double scale_
         snapshot.landmarks.push_back(map.landmarks()[id]);
     }
     for (Keyframe& keyframe : snapshot.keyframes) {
-        if (keyframe.culled) tieToTheLiving(keyframe, map);
         for (int& landmark : keyframe.landmarks) {
             if (landmark != no_landmark) landmark = number[landmark];
         }

@@ -113,6 +113,9 @@ PoseGraphSummary optimizePoseGraph(PoseGraph& graph, const PoseGraphOptions& opt
                                  blocks[edge.from].data(), blocks[edge.to].data());
     }
     problem.SetParameterBlockConstant(blocks[fixed].data());
+    for (int held = 0; held < graph.held; ++held) {
+        problem.SetParameterBlockConstant(blocks[held].data());
+    }
     ceres::Solver::Summary summary;
     ceres::Solve(solverOptions(options), &problem, &summary);
     for (std::size_t i = 0; i < blocks.size(); ++i) graph.nodes[i] = poseOf(blocks[i].data());

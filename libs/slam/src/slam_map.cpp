@@ -12,20 +12,6 @@ namespace {
  *  outlives the next keyframe. */
 constexpr std::size_t keyframes_of_rest = 2;
 
-/** Culled keyframes see nothing, and hang on others, which may be culled, but in the end on a
- * living one. */
-void checkCulled(const std::vector<Keyframe>& keyframes) {
-    for (const Keyframe& keyframe : keyframes) {
-        if (keyframe.culled && !keyframe.landmarks.empty()) {
-            throw DamagedBytes("a culled keyframe that sees something");
-        }
-        std::size_t links = 0;
-        for (const Keyframe* k = &keyframe; k->culled; k = &keyframes[k->parent]) {
-            if (++links > keyframes.size()) throw DamagedBytes("keyframes that hang on themselves");
-        }
-    }
-}
-
 }  // namespace
 
 SlamMap::SlamMap(double scale_factor, int levels) : log_scale_factor_(std::log(scale_factor)) {
@@ -53,6 +39,7 @@ void SlamMap::save(ByteWriter& out) const {
         out.putCount(keyframes);
     }
     putNumbers(culled_, out);
+    out.putCount(held_);
 }
 
 void SlamMap::load(ByteReader& in, const Camera& camera) {
@@ -74,6 +61,7 @@ void SlamMap::load(ByteReader& in, const Camera& camera) {
     for (const int keyframe : culled_) {
         if (!keyframes_[keyframe].culled) throw DamagedBytes("a living keyframe among the culled");
     }
+    held_ = getIndex(in, keyframes + 1, "number of held keyframes");
 }
 
 /** Each dead landmark is named once: its number will be given to another. */
@@ -220,7 +208,12 @@ void SlamMap::cull(int keyframe, int parent) {
     culled_.push_back(keyframe);
     culled.culled = true;
     culled.parent = parent;
-    culled.T_cam_parent = culled.T_cam_world * T_cam_world(parent).inverse();
+    culled.T_cam_parent = culled.T_cam_world * keyframes_[parent].T_cam_world.inverse();
+    for (Keyframe& child : keyframes_) {
+        if (!child.culled || child.parent != keyframe) continue;
+        child.parent = parent;
+        child.T_cam_parent = child.T_cam_parent * culled.T_cam_parent;
+    }
     const double stamp_s = culled.frame.stamp_s;
     culled.frame = Frame{};
     culled.frame.stamp_s = stamp_s;
@@ -229,7 +222,7 @@ void SlamMap::cull(int keyframe, int parent) {
 
 SE3 SlamMap::T_cam_world(int keyframe) const {
     const Keyframe& k = keyframes_[keyframe];
-    return k.culled ? k.T_cam_parent * T_cam_world(k.parent) : k.T_cam_world;
+    return k.culled ? k.T_cam_parent * keyframes_[k.parent].T_cam_world : k.T_cam_world;
 }
 
 void SlamMap::setPose(int keyframe, const SE3& T_cam_world) {

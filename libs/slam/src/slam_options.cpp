@@ -57,6 +57,8 @@ void MapperOptions::describe(OptionVisitor& v) {
               "Steps of the adjustment of everything after a loop");
     v.integer("loop_hand_over_frames", loop_hand_over_frames, 1, 10000, "frames",
               "After a loop, when that one reaches the tracker");
+    v.integer("localising_keyframes", localising_keyframes, 2, 1000000, "keyframes",
+              "Of its own that a run with --localize keeps; older ones are forgotten");
     v.flag("triangulate", triangulate, "Landmarks from two views where no depth was read");
     v.flag("local_adjustment", local_adjustment, "Bundle adjustment around each new keyframe");
     v.flag("loop_adjustment", loop_adjustment,

@@ -74,7 +74,7 @@ void VisualSlam::correct(const std::vector<SE3>& T_world_keyframe) {
 
 void VisualSlam::finish() {
     impl_->handOverAll();
-    if (impl_->frozen || !impl_->options.mapper.final_adjustment) return;
+    if (!impl_->options.mapper.final_adjustment) return;
     impl_->times.measure("final-adjustment",
                          [&] { impl_->full_adjuster.adjustNow(final_iterations); });
 }

@@ -16,10 +16,11 @@ constexpr int fewest_first_landmarks = 50;
 
 void VisualSlam::Implementation::restore(MapSnapshot snapshot, MapUse use) {
     requireFits(snapshot, options.features, camera, use);
+    seeWith(camera, snapshot);
     map.restore(std::move(snapshot.keyframes), std::move(snapshot.landmarks));
     times.measure("place-index", [&] { closer.restore(std::move(snapshot.loops)); });
     decision.reset(map.keyframes().back());
-    frozen = use == MapUse::Localise;
+    if (use == MapUse::Localise) map.hold();
     link = Link::None;
 }
 
@@ -35,7 +36,7 @@ void VisualSlam::Implementation::save(ByteWriter& out) const {
     for (const int number : {frames_since_keyframe, frames_since_loop}) {
         out.put<std::int32_t>(number);
     }
-    for (const bool flag : {frozen, placed}) putFlag(flag, out);
+    putFlag(placed, out);
     put(link, out);
 }
 
@@ -51,7 +52,7 @@ void VisualSlam::Implementation::load(ByteReader& in) {
     for (int* number : {&frames_since_keyframe, &frames_since_loop}) {
         *number = getTally(in);
     }
-    for (bool* flag : {&frozen, &placed}) *flag = getFlag(in);
+    placed = getFlag(in);
     link = getLink(in);
 }
 
@@ -103,7 +104,7 @@ void VisualSlam::Implementation::keep(Frame frame, LocatedFrame located, KeptFra
     placed = true;
     int reference = map.observers(located.landmarks).front().keyframe;
     const bool proves_a_place = record.origin == FrameOrigin::Recovered;
-    if (!frozen && (decision.wants(map, located, frames_since_keyframe) || proves_a_place)) {
+    if (decision.wants(map, located, frames_since_keyframe) || proves_a_place) {
         handOver();
         reference = insertKeyframe(frame, located, map.keyframe(reference).part);
         record.keyframe = reference;
@@ -129,7 +130,7 @@ void VisualSlam::Implementation::stray(Frame frame, KeptFrame& record) {
     T_cam_world.R = orthonormalised(T_cam_world.R);
     record.reference_keyframe = records.lastReference();
     record.T_cam_reference = T_cam_world * map.T_cam_world(record.reference_keyframe).inverse();
-    if (!frozen && weak_motion.shouldBeginAnew(frame, T_last_cam.has_value()))
+    if (weak_motion.shouldBeginAnew(frame, T_last_cam.has_value()))
         return beginAnew(std::move(frame), record);
     if (!T_last_cam) return tracker.forget();
     LocatedFrame located{T_cam_world, std::vector<int>(frame.keypoints.size(), no_landmark), 0};

@@ -61,8 +61,6 @@ class VisualSlam::Implementation {
     KeptFrames records;
     int frames_since_keyframe = 0;
     int frames_since_loop = 0;
-    /** The map may not change. */
-    bool frozen = false;
     /** Of the next keyframe to the last one. */
     Link link = Link::Tracked;
     /** Whether any frame of this run has been located. */

@@ -31,12 +31,13 @@ SlamMap smallMap() {
     return map;
 }
 
-constexpr std::size_t no_dead = sizeof(std::uint32_t), one_culled = 2 * sizeof(std::uint32_t);
+constexpr std::size_t no_dead = sizeof(std::uint32_t), one_culled = 2 * sizeof(std::uint32_t),
+                      no_held = sizeof(std::uint32_t);
 
-/** The small map, and instead of the dead landmarks and culled keyframes what `write` gives. */
+/** The small map, and instead of dead landmarks, culled and held keyframes what `write` gives. */
 void loadMap(const Write& write) {
     std::string bytes = bytesOf([](ByteWriter& out) { smallMap().save(out); });
-    bytes.resize(bytes.size() - no_dead - one_culled);
+    bytes.resize(bytes.size() - no_dead - one_culled - no_held);
     bytes += bytesOf(write);
     ByteReader in(bytes);
     SlamMap map(1.25, 6);
@@ -48,6 +49,7 @@ TEST(DamagedState, deadLandmarksAreDead) {
     EXPECT_NO_THROW(loadMap([](ByteWriter& out) {
         out.putCount(0);
         putNumbers({1}, out);
+        out.putCount(0);
     }));
     EXPECT_THROW(loadMap([](ByteWriter& out) {
                      out.putCount(1);
@@ -66,6 +68,23 @@ TEST(DamagedState, culledKeyframesAreCulled) {
                      }),
                      DamagedBytes)
             << keyframe;
+    }
+}
+
+TEST(DamagedState, noMoreKeyframesAreHeldThanThereAre) {
+    for (const std::uint32_t held : {0u, 2u, 3u}) {
+        const auto load = [&] {
+            loadMap([&](ByteWriter& out) {
+                out.putCount(0);
+                putNumbers({1}, out);
+                out.putCount(held);
+            });
+        };
+        if (held <= 2) {
+            EXPECT_NO_THROW(load()) << held;
+        } else {
+            EXPECT_THROW(load(), DamagedBytes);
+        }
     }
 }
 

@@ -59,7 +59,7 @@ TEST(MapSnapshot, comesBackAsItWas) {
     EXPECT_TRUE(back.keyframes[0].frame.keypoints[4].aligned);
 }
 
-TEST(MapSnapshot, leavesDeadLandmarksAndChainsOfParentsBehind) {
+TEST(MapSnapshot, leavesDeadLandmarksBehind) {
     SlamMap map(1.25, 6);
     Frame frame;
     frame.keypoints.resize(3);

@@ -166,6 +166,20 @@ TEST(PoseGraph, fixedNodeStaysAndTheRestFollows) {
     EXPECT_GT((world.graph.nodes[0].t - first.t).norm(), 1e-6);
 }
 
+TEST(PoseGraph, heldNodesStayAndTheRestFollows) {
+    World world(60, 2, 11);
+    for (int i = 0; i < 30; ++i) {
+        world.graph.nodes[i] = world.truth[i];
+        world.addEdge(i, i + 30, EdgeKind::Loop);
+    }
+    world.graph.held = 30;
+    optimizePoseGraph(world.graph, PoseGraphOptions());
+    for (int i = 0; i < 60; ++i) {
+        const double error = (world.graph.nodes[i].t - world.truth[i].t).norm();
+        EXPECT_LE(error, i < 30 ? 0 : 5 * sigma_m) << i;
+    }
+}
+
 TEST(PoseGraph, resultIsTheSameEachTime) {
     World a(200, 4, 6);
     a.addLoops(50);

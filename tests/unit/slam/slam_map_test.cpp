@@ -132,6 +132,31 @@ TEST(SlamMap, culledKeyframeMovesWithItsParent) {
     EXPECT_LT((map.T_cam_world(culled).t - Eigen::Vector3d(3, 5, 0)).norm(), 1e-12);
 }
 
+TEST(SlamMap, whatHungOnACulledKeyframeHangsOnItsParent) {
+    SlamMap map(1.2, 8);
+    for (int k = 0; k < 3; ++k) {
+        map.addKeyframe(frameOf(1), SE3(rotationExp({0, 0, 0.3 * k}), {1.0 * k, 0, 0}));
+    }
+    map.cull(2, 1);
+    map.cull(1, 0);
+    EXPECT_EQ(map.keyframe(2).parent, 0);
+    EXPECT_LT((map.T_cam_world(2).t - Eigen::Vector3d(2, 0, 0)).norm(), 1e-12);
+    map.setPose(0, SE3(Eigen::Matrix3d::Identity(), {0, 5, 0}));
+    const SE3 moved = SE3(rotationExp({0, 0, 0.6}), {2, 0, 0}) * map.T_cam_world(0);
+    EXPECT_LT((map.T_cam_world(2).t - moved.t).norm(), 1e-12);
+}
+
+TEST(SlamMap, holdsTheKeyframesThatThereAre) {
+    SlamMap map(1.2, 8);
+    for (int k = 0; k < 2; ++k) map.addKeyframe(frameOf(1), SE3());
+    EXPECT_TRUE(map.held(0));
+    EXPECT_FALSE(map.held(1));
+    map.hold();
+    map.addKeyframe(frameOf(1), SE3());
+    EXPECT_TRUE(map.held(1));
+    EXPECT_FALSE(map.held(2));
+}
+
 TEST(SlamMap, covisibilityCountsSharedLandmarksBestFirst) {
     SlamMap map(1.2, 8);
     for (int k = 0; k < 3; ++k) map.addKeyframe(frameOf(40), SE3());

@@ -201,26 +201,70 @@ struct MappedWorld {
     }
 };
 
-TEST(VisualSlam, localisesInAMapThatStaysAsItIs) {
-    MappedWorld mapped;
-    VisualSlam slam(SlamOptions{}, mapped.camera, mapped.map, MapUse::Localise);
-    for (int i = 0; i < 40; ++i) {
-        const SE3 truth = onCircle(0.9 - 0.02 * i);
-        const TrackedFrame frame = slam.track(mapped.world.view(truth, i + 1, mapped.camera));
-        EXPECT_EQ(frame.origin, i == 0 ? FrameOrigin::Recovered : FrameOrigin::Tracked) << i;
-        EXPECT_FALSE(frame.keyframe);
-        EXPECT_LT((frame.T_world_cam.t - (onCircle(0).inverse() * truth).t).norm(), 0.01) << i;
+/** The circle on from the middle of the map to beyond its end. */
+std::vector<TrackedFrame> localisedOnTheCircle(MappedWorld& mapped, int frames, VisualSlam& slam) {
+    for (int i = 0; i < frames; ++i) {
+        const auto frame =
+            slam.track(mapped.world.view(onCircle(0.8 + 0.02 * i), i + 1, mapped.camera));
+        if (!frame.keyframe || slam.findLoops(*frame.keyframe).empty()) continue;
+        PoseGraph graph = slam.poseGraph();
+        optimizePoseGraph(graph, PoseGraphOptions());
+        slam.correct(graph.nodes);
     }
     slam.finish();
-    ByteWriter before, after;
-    encode(mapped.map, before);
-    MapSnapshot left = slam.snapshot();
-    for (std::size_t i = 0; i < left.landmarks.size(); ++i) {  // counters of tracking apart
-        left.landmarks[i].times_expected = mapped.map.landmarks[i].times_expected;
-        left.landmarks[i].times_found = mapped.map.landmarks[i].times_found;
+    return slam.frames();
+}
+
+TEST(VisualSlam, localisesInAMapThatStaysWhereItIs) {
+    MappedWorld mapped;
+    VisualSlam slam(SlamOptions{}, mapped.camera, mapped.map, MapUse::Localise);
+    const auto frames = localisedOnTheCircle(mapped, 60, slam);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const SE3 truth = onCircle(0).inverse() * onCircle(0.8 + 0.02 * static_cast<double>(i));
+        EXPECT_EQ(frames[i].origin, i == 0 ? FrameOrigin::Recovered : FrameOrigin::Tracked) << i;
+        EXPECT_LT((frames[i].T_world_cam.t - truth.t).norm(), 0.01) << i;
     }
-    encode(left, after);
-    EXPECT_TRUE(before.bytes() == after.bytes());
+    const auto keyframes = slam.keyframes();
+    for (const Keyframe& before : mapped.map.keyframes) {
+        const KeyframeView& after = keyframes[before.id];
+        EXPECT_EQ(after.culled, before.culled);
+        if (before.culled) continue;
+        EXPECT_LT(((before.T_cam_world * after.T_world_cam).t).norm(), 1e-9) << before.id;
+    }
+}
+
+TEST(VisualSlam, keepsFewOfItsOwnKeyframesWhereItLocalises) {
+    MappedWorld mapped;
+    SlamOptions options;
+    options.mapper.localising_keyframes = 3;
+    VisualSlam slam(options, mapped.camera, mapped.map, MapUse::Localise);
+    const auto frames = localisedOnTheCircle(mapped, 60, slam);
+    std::size_t own = 0, living = 0;
+    for (const KeyframeView& keyframe : slam.keyframes()) {
+        if (keyframe.id < static_cast<int>(mapped.map.keyframes.size())) continue;
+        ++own;
+        living += !keyframe.culled;
+    }
+    EXPECT_GT(own, 6u);
+    EXPECT_LE(living, 3u);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const SE3 truth = onCircle(0).inverse() * onCircle(0.8 + 0.02 * static_cast<double>(i));
+        EXPECT_LT((frames[i].T_world_cam.t - truth.t).norm(), 0.02) << i;
+    }
+}
+
+TEST(VisualSlam, localisesWithAnotherCamera) {
+    MappedWorld mapped;
+    mapped.camera.fx *= 1.1;
+    mapped.camera.fy *= 1.1;
+    mapped.camera.cx += 5;
+    VisualSlam slam(SlamOptions{}, mapped.camera, mapped.map, MapUse::Localise);
+    const auto frames = localisedOnTheCircle(mapped, 40, slam);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+        const SE3 truth = onCircle(0).inverse() * onCircle(0.8 + 0.02 * static_cast<double>(i));
+        EXPECT_NE(frames[i].origin, FrameOrigin::Lost) << i;
+        EXPECT_LT((frames[i].T_world_cam.t - truth.t).norm(), 0.01) << i;
+    }
 }
 
 TEST(VisualSlam, extendsAMapBeyondWhatItShowed) {

@@ -51,7 +51,7 @@ struct StartMap {
     MapUse use = MapUse::Localise;
 };
 
-/** Starts in a map. A map to be extended fills the graph with its keyframes, odometry and loops.
+/** Starts in a map, which fills the graph with its keyframes, odometry and loops.
  *  \throws Error when the map does not fit the options or the camera */
 void startSlam(KeyframeGraph& graph, const mrpt::obs::CObservation3DRangeScan& frame,
                StartMap start);

@@ -45,6 +45,7 @@ class LocalMapper {
     void join(int landmark, int keyframe, int keypoint);
     void cullLandmarks(int keyframe);
     void cullKeyframes(int id);
+    void forgetOldest(int newest);
     bool isRedundant(const Landmark& landmark, int keyframe, int octave) const;
     double redundancy(const Keyframe& keyframe) const;
     MapAdjustment adjustmentAround(int id) const;

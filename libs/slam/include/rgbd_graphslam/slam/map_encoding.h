@@ -66,6 +66,8 @@ void put(const Keyframe& keyframe, ByteWriter& out);
 /** \param keyframes there are */
 Keyframe getKeyframe(ByteReader& in, int id, std::size_t keyframes, const Camera& camera,
                      int levels);
+/** \throws DamagedBytes unless culled ones see nothing and are tied to living ones */
+void checkCulled(const std::vector<Keyframe>& keyframes);
 
 void put(const Landmark& landmark, ByteWriter& out);
 /** Notes the observations at the keyframes, too. */

@@ -59,7 +59,7 @@ struct Keyframe {
     SE3 T_cam_world;
     /** One entry a keypoint: landmark or no_landmark. */
     std::vector<int> landmarks;
-    /** A culled keyframe keeps its place relative to the keyframe `parent`. */
+    /** A culled keyframe keeps its place relative to the living keyframe `parent`. */
     bool culled = false;
     int parent = -1;
     SE3 T_cam_parent;
@@ -106,8 +106,11 @@ class SlamMap {
     void removeLandmark(int landmark);
     /** Gives the observations of `from` to `into` and removes `from`. */
     void fuse(int from, int into);
-    /** Takes a keyframe out of the map; its pose stays tied to `parent`. */
+    /** Takes a keyframe out of the map; its pose, and those that were tied to it, are tied to
+     *  `parent`, which lives. */
     void cull(int keyframe, int parent);
+    /** The keyframes that there are keep their poses from now on. */
+    void hold() { held_ = keyframes_.size(); }
 
     const std::vector<Keyframe>& keyframes() const { return keyframes_; }
     const std::vector<Landmark>& landmarks() const { return landmarks_; }
@@ -115,6 +118,10 @@ class SlamMap {
     const Landmark& landmark(int id) const { return landmarks_[id]; }
     Landmark& landmark(int id) { return landmarks_[id]; }
     std::size_t aliveLandmarks() const { return alive_; }
+    /** Number of keyframes, the first ones, that hold() named. */
+    int heldCount() const { return static_cast<int>(held_); }
+    /** Whether a keyframe keeps its pose: the first always does. */
+    bool held(int keyframe) const { return keyframe == 0 || keyframe < heldCount(); }
     /** Keyframes that cull() took out, in that order. */
     const std::vector<int>& culled() const { return culled_; }
 
@@ -147,6 +154,7 @@ class SlamMap {
     std::vector<Keyframe> keyframes_;
     std::vector<Landmark> landmarks_;
     std::size_t alive_ = 0;
+    std::size_t held_ = 0;
     /** Dead landmarks and the number of keyframes at their death. */
     std::deque<std::pair<int, std::size_t>> dead_;
     std::vector<int> culled_;

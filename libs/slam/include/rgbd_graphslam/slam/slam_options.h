@@ -58,6 +58,7 @@ struct MapperOptions : Options {
     int hand_over_frames = 3;
     int loop_iterations = 5;
     int loop_hand_over_frames = 60;
+    int localising_keyframes = 300;
     bool triangulate = true;
     bool local_adjustment = true;
     bool loop_adjustment = true;

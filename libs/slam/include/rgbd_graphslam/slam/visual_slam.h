@@ -50,7 +50,8 @@ struct TrackedFrame {
 
 /** What a run does with the map that it starts from. */
 enum class MapUse {
-    /** The map stays as it is: poses only, memory does not grow with new views. */
+    /** The map's keyframes stay where they are; of the run's own only the latest are kept, so that
+     *  memory stays flat. */
     Localise,
     /** Frames are located in it and add to it. */
     Extend,
