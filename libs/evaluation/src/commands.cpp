@@ -23,6 +23,7 @@ PerAxis perAxis(const TrajectoryRequest& request) {
 /** Names of the estimates in tables: short ones, unless these would be the same. */
 std::vector<std::string> labelsOf(const std::vector<std::string>& paths) {
     std::vector<std::string> stems;
+    stems.reserve(paths.size());
     for (const auto& path : paths) stems.push_back(std::filesystem::path(path).stem());
     const std::set<std::string> distinct(stems.begin(), stems.end());
     return distinct.size() == paths.size() ? stems : paths;
@@ -85,6 +86,7 @@ auto evaluateAll(const TrajectoryRequest& request, Evaluate evaluate) {
 template <class Evaluated>
 std::string tableOf(const std::vector<Evaluated>& evaluated, const TrajectoryRequest& request) {
     std::vector<Report> reports;
+    reports.reserve(evaluated.size());
     for (const auto& each : evaluated) {
         reports.push_back(reportOf(each.label, each.result, perAxis(request)));
     }

@@ -108,7 +108,7 @@ void Gnuplot::command(const std::string& line) {
 }
 
 std::string Gnuplot::data(const Rows& rows) {
-    const std::string name = "$block" + std::to_string(block_count_++);
+    std::string name = "$block" + std::to_string(block_count_++);
     blocks_ += name + " << END_OF_BLOCK\n";
     for (const auto& row : rows) {
         for (const double value : row) {

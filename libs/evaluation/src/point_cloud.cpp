@@ -36,7 +36,7 @@ std::string sizeText(int width, int height) {
     return std::to_string(width) + "x" + std::to_string(height);
 }
 
-cv::Mat pixelsOf(DecodedImage image) {
+cv::Mat pixelsOf(const DecodedImage& image) {
     if (!image.damage.empty()) throw Error(image.damage, "check the file");
     return image.pixels;
 }

@@ -25,6 +25,7 @@ void addAxes(const std::string& name, const std::string& unit, const Errors& err
              Component component, std::vector<Figure>& figures) {
     for (int axis = 0; axis < 3; ++axis) {
         std::vector<double> values;
+        values.reserve(errors.size());
         for (const auto& error : errors) values.push_back(std::abs(component(error)[axis]));
         addStatistics(name + "." + "xyz"[axis], unit, statisticsOf(values), figures);
     }

@@ -55,12 +55,14 @@ std::vector<StampedLine> readStampedList(const std::string& path) {
     }
     if (rest_at.empty()) throw Error("no stamp in '" + path + "'", "give a list of the TUM format");
     std::vector<StampedLine> lines;
+    lines.reserve(rest_at.size());
     for (const auto& [stamp_s, rest] : rest_at) lines.push_back({stamp_s, rest});
     return lines;
 }
 
 std::vector<double> stampsOf(const std::vector<StampedLine>& lines) {
     std::vector<double> stamps_s;
+    stamps_s.reserve(lines.size());
     for (const auto& line : lines) stamps_s.push_back(line.stamp_s);
     return stamps_s;
 }

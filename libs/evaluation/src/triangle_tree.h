@@ -27,7 +27,7 @@ class TriangleTree {
     };
 
     int build(std::size_t first, std::size_t last);
-    void descend(int node, const Eigen::Vector3d& p, double& best_squared) const;
+    void descend(int index, const Eigen::Vector3d& p, double& best_squared) const;
     Eigen::Vector3d corner(std::size_t triangle, int which) const;
     Eigen::AlignedBox3d boxOf(std::size_t triangle) const;
     double squaredDistance(std::size_t triangle, const Eigen::Vector3d& p) const;

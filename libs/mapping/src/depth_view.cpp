@@ -70,9 +70,9 @@ class EdgeFilter {
   private:
     float cleaned(float z, float left, float right, float above, float below) const {
         const float tolerance = ratio_ * z + 3 * (a_ + b_ * (z - c_) * (z - c_));
-        const bool edge = jumps(z, above, tolerance) | jumps(z, below, tolerance) |
-                          jumps(z, left, tolerance) | jumps(z, right, tolerance);
-        return edge ? 0.f : z;
+        const int edges = jumps(z, above, tolerance) + jumps(z, below, tolerance) +
+                          jumps(z, left, tolerance) + jumps(z, right, tolerance);
+        return edges > 0 ? 0.f : z;
     }
 
     float ratio_, a_, b_, c_;

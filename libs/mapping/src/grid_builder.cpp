@@ -90,12 +90,12 @@ class ColumnMap {
             if (!obstacle && !floor) continue;
             for (int y = 0; y < block_size; ++y) {
                 for (int x = 0; x < block_size; ++x) {
-                    const int value = block.log_odds[OccupancyVolume::Block::indexOf(x, y, z)];
+                    const auto value = block.log_odds[OccupancyVolume::Block::indexOf(x, y, z)];
                     if (value == OccupancyVolume::unknown) continue;
                     Column& column = at(index.x * block_size + x, index.y * block_size + y);
                     if (floor) column.floor |= value >= 0;
                     if (!obstacle) continue;
-                    column.largest = std::max(column.largest, value);
+                    column.largest = std::max<int>(column.largest, value);
                     if (value >= 0) continue;
                     ++column.free;
                     column.evidence += value;

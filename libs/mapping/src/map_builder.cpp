@@ -110,16 +110,16 @@ MapSummary writeFiles(const MapInputs& inputs, const Maps& maps, const std::stri
 
 }  // namespace
 
-MapSummary writeMaps(const MapInputs& all, const MapOptions& options,
+MapSummary writeMaps(const MapInputs& inputs, const MapOptions& options,
                      const std::string& out_folder) {
-    checkInputs(all);
-    const MapInputs inputs = withoutApart(all);
+    checkInputs(inputs);
+    const MapInputs connected = withoutApart(inputs);
     makeWritableFolder(out_folder);
     Maps maps;
-    const std::size_t found = addSessions(maps, inputs, options);
+    const std::size_t found = addSessions(maps, connected, options);
     if (found == 0) throw Error("no rawlog of the keyframes is left", "give --rawlog FILE");
     maps.finish();
-    MapSummary summary = writeFiles(inputs, maps, out_folder);
+    MapSummary summary = writeFiles(connected, maps, out_folder);
     summary.keyframes = found;
     summary.insert_ms = maps.insert_ms / static_cast<double>(found);
     const auto megabytes = [](std::size_t bytes) { return 1e-6 * static_cast<double>(bytes); };

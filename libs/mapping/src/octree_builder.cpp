@@ -4,6 +4,7 @@
 #include <octomap/OcTree.h>
 
 #include <algorithm>
+#include <cmath>
 #include <type_traits>
 
 namespace rgbd_graphslam {
@@ -20,7 +21,7 @@ octomap::OcTreeKey keyOf(const VoxelIndex& v) {
 }
 
 std::uint8_t channel(float value) {
-    return static_cast<std::uint8_t>(value + 0.5f);
+    return static_cast<std::uint8_t>(std::lround(value));
 }
 
 /** A tree that can be built from the root down: OctoMap makes a root only for a leaf. */

@@ -1,10 +1,12 @@
 #include "rgbd_graphslam/mapping/point_fusion.h"
 
+#include <cmath>
+
 namespace rgbd_graphslam {
 namespace {
 
 std::uint8_t channel(float value) {
-    return static_cast<std::uint8_t>(value + 0.5f);
+    return static_cast<std::uint8_t>(std::lround(value));
 }
 
 }  // namespace

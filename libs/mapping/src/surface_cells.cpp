@@ -78,8 +78,7 @@ std::optional<Plane> SurfaceCells::planeAt(const VoxelIndex& voxel) const {
     for (const double radius : radii_cells) {
         const bool widest = radius == radii_cells[std::size(radii_cells) - 1];
         if (widest && weight > hardly_read) break;
-        const auto plane = planeAround(middle, radius);
-        if (plane) return plane;
+        if (auto plane = planeAround(middle, radius)) return plane;
     }
     return std::nullopt;
 }

@@ -111,13 +111,13 @@ std::optional<Eigen::Vector3d> upFromAccelerometer(const std::vector<SpecificFor
     return sum.normalized();
 }
 
-std::vector<SurfacePatch> surfacePatches(const cv::Mat1f& depth, const RayTable& table,
+std::vector<SurfacePatch> surfacePatches(const cv::Mat1f& depth, const RayTable& rays,
                                          double max_range_m) {
-    const Rays rays{depth, table, max_range_m};
+    const Rays readings{depth, rays, max_range_m};
     std::vector<SurfacePatch> patches;
     for (int v = patch_arm_px; v < depth.rows - patch_arm_px; v += patch_step_px) {
         for (int u = patch_arm_px; u < depth.cols - patch_arm_px; u += patch_step_px) {
-            if (const auto patch = patchAt(rays, u, v)) patches.push_back(*patch);
+            if (const auto patch = patchAt(readings, u, v)) patches.push_back(*patch);
         }
     }
     return patches;

@@ -70,6 +70,7 @@ cv::Mat sequenceRow(const std::string& folder) {
 
 void writeContactSheet(const std::vector<std::string>& folders, const std::string& path) {
     std::vector<cv::Mat> rows;
+    rows.reserve(folders.size());
     for (const std::string& folder : folders) rows.push_back(sequenceRow(folder));
     cv::Mat sheet;
     cv::vconcat(rows, sheet);

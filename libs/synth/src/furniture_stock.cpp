@@ -8,6 +8,7 @@ namespace {
 template <class Paint>
 std::vector<int> stock(Scene& scene, int count, double tile_m, double glow, Paint paint) {
     std::vector<int> materials;
+    materials.reserve(count);
     for (int i = 0; i < count; ++i) materials.push_back(scene.addMaterial(paint(i), tile_m, glow));
     return materials;
 }

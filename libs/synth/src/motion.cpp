@@ -111,7 +111,8 @@ Eigen::Matrix3d forwardToOptical() {
     return R;
 }
 
-Motion handHeld(Spline positions, Spline targets, const Tremble& tremble, std::uint64_t seed) {
+Motion handHeld(const Spline& positions, const Spline& targets, const Tremble& tremble,
+                std::uint64_t seed) {
     Motion motion;
     motion.duration_s = positions.duration();
     const Wobble wobble(seed);
@@ -129,7 +130,7 @@ SE3 robotCamera() {
     return {forwardToOptical().transpose(), Vector3d(0.15, 0, 0.6)};
 }
 
-Motion planarRobot(Spline way) {
+Motion planarRobot(const Spline& way) {
     Motion motion;
     motion.duration_s = way.duration();
     motion.T_world_base = [way](double t) {

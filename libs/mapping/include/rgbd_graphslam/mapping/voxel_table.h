@@ -19,7 +19,9 @@ struct VoxelIndex {
 constexpr int voxel_index_limit = 1 << 20;
 
 inline std::uint64_t voxelKey(const VoxelIndex& v) {
-    const auto part = [](int i) { return static_cast<std::uint64_t>(i + voxel_index_limit); };
+    const auto part = [](std::int64_t i) {
+        return static_cast<std::uint64_t>(i + voxel_index_limit);
+    };
     return part(v.x) << 42 | part(v.y) << 21 | part(v.z);
 }
 

@@ -48,11 +48,12 @@ struct Motion {
 
 /** A camera carried along `positions` that looks at a moving target.
  *  \throws Error when position and target meet */
-Motion handHeld(Spline positions, Spline targets, const Tremble& tremble, std::uint64_t seed);
+Motion handHeld(const Spline& positions, const Spline& targets, const Tremble& tremble,
+                std::uint64_t seed);
 
 /** A robot with its camera 0.15 m ahead of its turning point, 0.6 m above the floor, looking
  *  ahead. \param way in the floor's plane; the robot looks along it */
-Motion planarRobot(Spline way);
+Motion planarRobot(const Spline& way);
 
 /** Camera on the planar robot, optical frame. */
 SE3 robotCamera();
