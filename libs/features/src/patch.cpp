@@ -1,5 +1,6 @@
 #include "rgbd_graphslam/features/patch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -21,8 +22,8 @@ constexpr float least_gradient = 100;
  *  sensors are noisy. */
 constexpr float most_unexplained = 0.3f, noise_variance = 50;
 
-/** Turns and scales that displace the window's corner by a quarter of a pixel at most: what is left
- *  of that on average over the window is nothing. */
+/** Turns and scales that displace the window's corner by a pixel at most, opposite corners in
+ *  opposite directions: on average over the window that is nothing. */
 constexpr float negligible_turn = 0.15f;
 
 typedef std::uint8_t Bytes __attribute__((vector_size(side)));

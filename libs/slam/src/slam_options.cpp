@@ -85,7 +85,7 @@ void RecoveryOptions::describe(OptionVisitor& v) {
     v.flag("weak_motion", weak_motion,
            "Follow the camera by the last frame, whole images, odometry or gyroscope");
     v.integer("weak_keyframe_after", weak_keyframe_after, 1, 10000, "frames",
-              "Followed so before the map goes on from there");
+              "Followed so, or seen without a map, before one goes on from there");
     v.integer("new_part_after", new_part_after, 1, 10000, "frames",
               "Lost with enough keypoints before a new part of the map begins");
     v.integer("fewest_keypoints", fewest_keypoints, 50, 10000, "keypoints",

@@ -130,8 +130,9 @@ void VisualSlam::Implementation::stray(Frame frame, KeptFrame& record) {
     T_cam_world.R = orthonormalised(T_cam_world.R);
     record.reference_keyframe = records.lastReference();
     record.T_cam_reference = T_cam_world * map.T_cam_world(record.reference_keyframe).inverse();
-    if (weak_motion.shouldBeginAnew(frame, T_last_cam.has_value()))
+    if (weak_motion.shouldBeginAnew(frame, T_last_cam || !placed)) {
         return beginAnew(std::move(frame), record);
+    }
     if (!T_last_cam) return tracker.forget();
     LocatedFrame located{T_cam_world, std::vector<int>(frame.keypoints.size(), no_landmark), 0};
     tracker.setLast(std::move(frame), std::move(located), record.reference_keyframe, true);

@@ -34,10 +34,10 @@ std::optional<SE3> WeakMotion::follow(const Frame& frame, const SE3& T_last_worl
     return T_last_cam;
 }
 
-bool WeakMotion::shouldBeginAnew(const Frame& frame, bool followed) {
+bool WeakMotion::shouldBeginAnew(const Frame& frame, bool soon) {
     if (keypointsWithDepth(frame) < options_.fewest_keypoints) return false;
     ++astray_;
-    return astray_ >= (followed ? options_.weak_keyframe_after : options_.new_part_after);
+    return astray_ >= (soon ? options_.weak_keyframe_after : options_.new_part_after);
 }
 
 void WeakMotion::save(ByteWriter& out) const {

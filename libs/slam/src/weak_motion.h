@@ -26,10 +26,10 @@ class WeakMotion {
     std::optional<SE3> follow(const Frame& frame, const SE3& T_last_world);
 
     /** To be asked once about each frame since the map was seen.
-     *  \param followed its motion is known
+     *  \param soon few frames prove enough, as their motion is known or no map was seen before
      *  \return whether the map should go on from this frame: it is rich enough for a keyframe, and
      *          so were enough frames before it */
-    bool shouldBeginAnew(const Frame& frame, bool followed);
+    bool shouldBeginAnew(const Frame& frame, bool soon);
 
     /** What coming frames depend on. */
     void save(ByteWriter& out) const;

@@ -286,13 +286,15 @@ TEST(VisualSlam, extendsAMapBeyondWhatItShowed) {
     EXPECT_GT(slam.snapshot().landmarks.size(), mapped.map.landmarks.size());
 }
 
-TEST(VisualSlam, elsewhereItIsLostAndSaysSo) {
+TEST(VisualSlam, elsewhereItIsLostAndBeginsAPartOfItsOwn) {
     MappedWorld mapped;
-    VisualSlam slam(SlamOptions{}, mapped.camera, mapped.map, MapUse::Localise);
-    for (int i = 0; i < 5; ++i) {
-        const auto frame =
-            slam.track(mapped.world.view(onCircle(4 + 0.02 * i), i + 1, mapped.camera));
-        EXPECT_EQ(frame.origin, FrameOrigin::Lost);
+    const SlamOptions options;
+    VisualSlam slam(options, mapped.camera, mapped.map, MapUse::Localise);
+    for (int i = 1; i <= 10; ++i) {
+        const auto frame = slam.track(mapped.world.view(onCircle(4 + 0.02 * i), i, mapped.camera));
+        const bool lost = i < options.recovery.weak_keyframe_after;
+        EXPECT_EQ(frame.origin, lost ? FrameOrigin::Lost : FrameOrigin::Tracked) << i;
+        EXPECT_EQ(frame.part == 0, lost) << i;
     }
 }
 

@@ -64,7 +64,7 @@ struct Frame {
     double stamp_s = 0;
     std::vector<Keypoint> keypoints;
     std::vector<Descriptor> descriptors;
-    /** Only until the frame has been tracked and its landmarks made. */
+    /** Until the frame is tracked; a keyframe's until the next keyframe. */
     std::vector<Patch> patches;
     KeypointGrid grid;
     /** The image as a whole, made when it is first asked for: most frames are tracked without.
