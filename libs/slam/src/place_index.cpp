@@ -16,6 +16,8 @@ constexpr int descriptor_bits = 256;
 constexpr std::size_t leaf_capacity = 80;
 /** A bit that splits worse than this says too little. */
 constexpr double most_unbalanced = 0.3;
+/** One round of sweeping takes so many keyframes. */
+constexpr std::size_t sweep_keyframes = 64;
 constexpr std::size_t least_node_bytes = sizeof(std::int16_t) + sizeof(std::uint32_t);
 
 struct Entry {
@@ -75,6 +77,11 @@ struct PlaceIndex::Tree {
         std::size_t forgotten = 0;
 
         std::size_t size() const { return entries.size() + forgotten; }
+        void forget(const std::vector<char>& erased) {
+            const auto is_erased = [&](const Entry& e) { return erased[e.keyframe] != 0; };
+            entries.erase(std::remove_if(entries.begin(), entries.end(), is_erased), entries.end());
+            forgotten = 0;
+        }
     };
     explicit Tree(int first) : first_bit(first), nodes(1) {}
 
@@ -86,13 +93,19 @@ struct PlaceIndex::Tree {
 
     void insert(const Entry& entry, const std::vector<char>& erased) {
         const int leaf = leafOf(entry.descriptor);
-        auto& entries = nodes[leaf].entries;
-        entries.push_back(entry);
+        nodes[leaf].entries.push_back(entry);
         if (nodes[leaf].size() <= nodes[leaf].splits_at) return;
-        const auto is_erased = [&](const Entry& e) { return erased[e.keyframe] != 0; };
-        entries.erase(std::remove_if(entries.begin(), entries.end(), is_erased), entries.end());
-        nodes[leaf].forgotten = 0;
-        if (entries.size() > nodes[leaf].splits_at) split(leaf);
+        nodes[leaf].forget(erased);
+        if (nodes[leaf].entries.size() > nodes[leaf].splits_at) split(leaf);
+    }
+
+    /** Frees what erased keyframes left in some of the leaves, others from call to call. */
+    void sweep(const std::vector<char>& erased) {
+        for (std::size_t i = 0; i < nodes.size() / sweep_keyframes + 1; ++i) {
+            swept = (swept + 1) % nodes.size();
+            nodes[swept].forget(erased);
+            nodes[swept].entries.shrink_to_fit();
+        }
     }
 
     void split(int leaf) {
@@ -130,6 +143,7 @@ struct PlaceIndex::Tree {
 
     /** How the nodes divide; of the entries only how many are forgotten. */
     void saveShape(ByteWriter& out, const std::vector<char>& erased) const {
+        out.putCount(swept);
         out.putCount(nodes.size());
         for (const Node& node : nodes) {
             out.put<std::int16_t>(node.bit);
@@ -145,6 +159,7 @@ struct PlaceIndex::Tree {
     }
 
     void loadShape(ByteReader& in) {
+        swept = in.get<std::uint32_t>();
         nodes.resize(in.getCount(least_node_bytes));
         for (std::size_t i = 0; i < nodes.size(); ++i) {
             Node& node = nodes[i];
@@ -161,9 +176,11 @@ struct PlaceIndex::Tree {
             if (node.forgotten > node.splits_at) throw DamagedBytes("a leaf with too much");
         }
         if (nodes.empty()) throw DamagedBytes("a tree without a root");
+        if (swept >= nodes.size()) throw DamagedBytes("a sweep beyond a tree");
     }
 
     int first_bit;
+    std::size_t swept = 0;  // the last node that sweep() visited
     std::vector<Node> nodes;
 };
 
@@ -175,8 +192,11 @@ PlaceIndex::~PlaceIndex() = default;
 
 void PlaceIndex::insert(int keyframe, const std::vector<Descriptor>& descriptors) {
     erased_.resize(keyframe + 1, false);
-    for (const Descriptor& descriptor : descriptors) {
-        for (auto& tree : trees_) tree->insert({descriptor, keyframe}, erased_);
+    for (auto& tree : trees_) {
+        for (const Descriptor& descriptor : descriptors) {
+            tree->insert({descriptor, keyframe}, erased_);
+        }
+        tree->sweep(erased_);
     }
 }
 

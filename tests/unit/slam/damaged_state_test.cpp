@@ -88,11 +88,13 @@ TEST(DamagedState, noMoreKeyframesAreHeldThanThereAre) {
     }
 }
 
-void loadPlaces(std::size_t keyframes, std::uint32_t forgotten, std::uint32_t splits_at) {
+void loadPlaces(std::size_t keyframes, std::uint32_t forgotten, std::uint32_t splits_at,
+                std::uint32_t swept = 0) {
     const std::string bytes = bytesOf([&](ByteWriter& out) {
         out.putCount(keyframes);
         for (std::size_t k = 0; k < keyframes; ++k) putFlag(true, out);
         for (int tree = 0; tree < 4; ++tree) {
+            out.putCount(swept);
             out.putCount(1);
             out.put<std::int16_t>(-1);
             out.put(splits_at);
@@ -115,6 +117,10 @@ TEST(DamagedState, placesAreOfKeyframesThatAreThere) {
 TEST(DamagedState, forgottenPlacesTakeNoMemory) {
     EXPECT_NO_THROW(loadPlaces(3, 0xffffffff, 0xffffffff));
     EXPECT_THROW(loadPlaces(3, 81, 80), DamagedBytes);
+}
+
+TEST(DamagedState, placesAreSweptWhereThereAreNodes) {
+    EXPECT_THROW(loadPlaces(3, 0, 80, 1), DamagedBytes);
 }
 
 TEST(DamagedState, smallImagesAreOfTheCamera) {

@@ -82,6 +82,35 @@ TEST(PlaceIndex, forgetsAnErasedKeyframeAndGoesOnWithTheOthers) {
     for (const PlaceVote& vote : votes) EXPECT_NE(vote.keyframe, 0);
 }
 
+/** Descriptors of erased keyframes that an index still holds, by its saved state. */
+std::uint64_t left(const PlaceIndex& index) {
+    ByteWriter out;
+    index.save(out);
+    const std::string bytes = out.take();
+    ByteReader in(bytes);
+    for (std::size_t keyframes = in.getCount(1); keyframes > 0; --keyframes) in.get<std::uint8_t>();
+    std::uint64_t count = 0;
+    for (int tree = 0; tree < 4; ++tree) {
+        in.get<std::uint32_t>();  // swept
+        for (std::size_t nodes = in.getCount(1); nodes > 0; --nodes) {
+            const bool is_leaf = in.get<std::int16_t>() < 0;
+            in.get<std::uint32_t>();
+            if (is_leaf) count += in.get<std::uint32_t>();
+        }
+    }
+    return count;
+}
+
+TEST(PlaceIndex, freesWhatErasedKeyframesLeft) {
+    Places places;
+    PlaceIndex index(max_hamming);
+    for (int k = 0; k < 40; ++k) index.insert(k, places.place(200));
+    for (int k = 0; k < 40; k += 2) index.erase(k);
+    EXPECT_EQ(left(index), 4u * 20 * 200);
+    for (int k = 40; k < 40 + 70; ++k) index.insert(k, places.place(2));
+    EXPECT_EQ(left(index), 0u);
+}
+
 TEST(PlaceIndex, knowsNothingAtFirst) {
     EXPECT_TRUE(PlaceIndex(max_hamming).query(Places().place(10)).empty());
 }

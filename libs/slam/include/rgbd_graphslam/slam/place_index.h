@@ -35,7 +35,7 @@ class PlaceIndex {
      *  \throws DamagedBytes */
     void load(ByteReader& in, std::size_t keyframes);
 
-    /** Forgets a keyframe; the memory of its descriptors is used again as their leaves fill up. */
+    /** Forgets a keyframe; the memory of its descriptors is free some insertions later. */
     void erase(int keyframe);
 
     /** Keyframes with their number of matches, best first, then by id. */
