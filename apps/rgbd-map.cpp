@@ -15,7 +15,8 @@ namespace {
 
 struct Arguments {
     std::string folder, rawlog, destination;
-    double octree_m = 0, grid_m = 0, points_m = 0, z_min_m = 0, z_max_m = 0, scans_per_s = 0;
+    double octree_m = 0, grid_m = 0, points_m = 0, mesh_m = 0, z_min_m = 0, z_max_m = 0,
+           scans_per_s = 0;
     std::vector<std::string> settings;
     bool upright = false;
 };
@@ -31,6 +32,7 @@ MapOptions optionsOf(const CLI::App& app, const Arguments& arguments) {
     set("--octree", "octree_resolution_m", arguments.octree_m);
     set("--grid", "grid_resolution_m", arguments.grid_m);
     set("--points", "point_voxel_m", arguments.points_m);
+    set("--mesh", "mesh_voxel_m", arguments.mesh_m);
     set("--z-min", "z_min_m", arguments.z_min_m);
     set("--z-max", "z_max_m", arguments.z_max_m);
     for (const auto& setting : arguments.settings) overrides.override(setting);
@@ -44,12 +46,13 @@ void print(const MapSummary& summary, std::size_t scans, const std::string& fold
         "cells\n",
         summary.keyframes, summary.points, summary.octree_leaves, summary.grid_width,
         summary.grid_height);
+    if (summary.triangles > 0) std::printf("triangles      %zu\n", summary.triangles);
     if (scans > 0) std::printf("scans          %zu\n", scans);
     std::printf(
-        "a keyframe     %.1f ms CPU\nmemory         %.1f MB: points %.1f, octree %.1f\n"
+        "a keyframe     %.1f ms CPU\nmemory         %.1f MB: points %.1f, octree %.1f, mesh %.1f\n"
         "maps in        %s\n",
         summary.insert_ms, summary.megabytes, summary.points_megabytes, summary.octree_megabytes,
-        folder.c_str());
+        summary.mesh_megabytes, folder.c_str());
 }
 
 }  // namespace
@@ -64,6 +67,8 @@ int main(int argc, char** argv) {
     app.add_option("--grid", arguments.grid_m, "Resolution of the 2-D grid, m");
     app.add_option("--points", arguments.points_m,
                    "Voxel that readings are merged in to one point, m");
+    app.add_option("--mesh", arguments.mesh_m,
+                   "Also write mesh.ply, of triangles with about this edge, m");
     app.add_option("--z-min", arguments.z_min_m,
                    "Obstacles of the grid start this high above the floor, m");
     app.add_option("--z-max", arguments.z_max_m,

@@ -9,6 +9,7 @@
 #include "../unit/mapping/box_room.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/mapping/dense_mapper.h"
+#include "rgbd_graphslam/mapping/surface_nets.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -87,6 +88,31 @@ void pointFusion(benchmark::State& state) {
     reportPerKeyframe(state);
 }
 BENCHMARK(pointFusion)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
+
+void meshFusion(benchmark::State& state) {
+    const RayTable rays(sequence().camera);
+    for (auto _ : state) {
+        DistanceVolume volume(resolutionOf(state));
+        for (int i = 0; i < views; ++i) {
+            volume.insert(sequence().poses[i], DepthView(sequence().images[i], rays, MapOptions()));
+        }
+        state.counters["MB"] = 1e-6 * static_cast<double>(volume.bytes());
+    }
+    reportPerKeyframe(state);
+}
+BENCHMARK(meshFusion)->Arg(4)->Arg(2)->Arg(1)->Unit(benchmark::kMillisecond);
+
+void meshOfRoom(benchmark::State& state) {
+    const RayTable rays(sequence().camera);
+    DistanceVolume volume(resolutionOf(state));
+    for (int i = 0; i < views; ++i)
+        volume.insert(sequence().poses[i], DepthView(sequence().images[i], rays, MapOptions()));
+    for (auto _ : state) {
+        const PlyModel mesh = surfaceOf(volume.blocks(), resolutionOf(state));
+        state.counters["triangles"] = static_cast<double>(mesh.triangles.size());
+    }
+}
+BENCHMARK(meshOfRoom)->Arg(4)->Arg(2)->Arg(1)->Unit(benchmark::kMillisecond);
 
 /** The same cleaned readings as point clouds, which is what COctoMap takes fastest. */
 std::vector<mrpt::obs::CObservationPointCloud> pointClouds() {

@@ -76,6 +76,7 @@ class PlyReader {
         for (const auto& element : header_.elements) readElement(element);
         if (model_.vertices.empty()) refuse("holds no vertex");
         checkTriangles();
+        if (model_.normals.size() != model_.vertices.size()) model_.normals.clear();
         return std::move(model_);
     }
 
@@ -204,7 +205,7 @@ class PlyReader {
     }
 
     void readVertex(const Element& element) {
-        Eigen::Vector3f place = Eigen::Vector3f::Constant(NAN);
+        Eigen::Vector3f place = Eigen::Vector3f::Constant(NAN), normal = place;
         std::array<std::uint8_t, 3> color{};
         bool colored = false;
         for (const auto& property : element.properties) {
@@ -213,17 +214,25 @@ class PlyReader {
                 continue;
             }
             const double value = number(property.type);
-            const auto axis = std::string("xyz").find(property.name);
-            if (property.name.size() == 1 && axis < 3) place[axis] = static_cast<float>(value);
+            const int axis = axisOf(property.name), normal_axis = normalAxisOf(property.name);
+            if (axis >= 0) place[axis] = static_cast<float>(value);
+            if (normal_axis >= 0) normal[normal_axis] = static_cast<float>(value);
             const int channel = channelOf(property.name);
             if (channel >= 0) color[channel] = static_cast<std::uint8_t>(value);
             colored |= channel >= 0;
         }
         if (!place.allFinite()) refuse("has a vertex that is nowhere");
         model_.vertices.push_back(place);
+        if (normal.allFinite()) model_.normals.push_back(normal);
         if (colored) model_.colors.push_back(color);
     }
 
+    static int axisOf(const std::string& name) {
+        return name == "x" ? 0 : name == "y" ? 1 : name == "z" ? 2 : -1;
+    }
+    static int normalAxisOf(const std::string& name) {
+        return name == "nx" ? 0 : name == "ny" ? 1 : name == "nz" ? 2 : -1;
+    }
     static int channelOf(const std::string& name) {
         return name == "red" ? 0 : name == "green" ? 1 : name == "blue" ? 2 : -1;
     }
@@ -264,12 +273,15 @@ std::string headerOf(const PlyModel& model) {
     std::string text = "ply\nformat binary_little_endian 1.0\nelement vertex " +
                        std::to_string(model.vertices.size()) +
                        "\nproperty float x\nproperty float y\nproperty float z\n";
+    if (!model.normals.empty()) {
+        text += "property float nx\nproperty float ny\nproperty float nz\n";
+    }
     if (!model.colors.empty()) {
         text += "property uchar red\nproperty uchar green\nproperty uchar blue\n";
     }
     if (!model.triangles.empty()) {
         text += "element face " + std::to_string(model.triangles.size()) +
-                "\nproperty list uchar uint vertex_indices\n";
+                "\nproperty list uchar int vertex_indices\n";
     }
     return text + "end_header\n";
 }
@@ -283,6 +295,7 @@ bool writeModel(std::ostream& out, const PlyModel& model) {
     out << headerOf(model);
     for (std::size_t k = 0; k < model.vertices.size(); ++k) {
         writeBytes(out, model.vertices[k]);
+        if (!model.normals.empty()) writeBytes(out, model.normals[k]);
         if (!model.colors.empty()) writeBytes(out, model.colors[k]);
     }
     for (const auto& triangle : model.triangles) {

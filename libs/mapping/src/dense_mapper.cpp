@@ -9,6 +9,8 @@
 #include <string>
 
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/mapping/mesh_parts.h"
+#include "rgbd_graphslam/mapping/surface_nets.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -17,6 +19,14 @@ std::string shortNumber(double value) {
     char text[32];
     std::snprintf(text, sizeof(text), "%.3g", value);
     return text;
+}
+
+/** With finer ones a single keyframe could fill the memory. */
+void checkMeshVoxel(double voxel_m) {
+    constexpr double finest_m = 0.005;
+    if (voxel_m >= finest_m) return;
+    throw Error("a mesh of " + shortNumber(voxel_m) + " m is finer than depth images can tell",
+                "set mesh_voxel_m to " + shortNumber(finest_m) + " or more, or to 0 for no mesh");
 }
 
 }  // namespace
@@ -30,6 +40,10 @@ DenseMapper::DenseMapper(const MapOptions& options, const Camera& camera)
         grid_volume_ =
             std::make_unique<OccupancyVolume>(options.grid_resolution_m, options.hit_share);
     }
+    if (options.mesh_voxel_m > 0) {
+        checkMeshVoxel(options.mesh_voxel_m);
+        mesh_volume_ = std::make_unique<DistanceVolume>(options.mesh_voxel_m);
+    }
 }
 
 void DenseMapper::insert(const SE3& T_world_cam, const DepthView& view) {
@@ -41,6 +55,7 @@ void DenseMapper::insert(const SE3& T_world_cam, const DepthView& view) {
     octree_volume_.insert(T_world_cam, view);
     if (grid_volume_) grid_volume_->insert(T_world_cam, view);
     points_.insert(T_world_cam, view);
+    if (mesh_volume_) mesh_volume_->insert(T_world_cam, view);
     ++keyframes_;
 }
 
@@ -60,6 +75,14 @@ PointMap DenseMapper::points() const {
     return all;
 }
 
+PlyModel DenseMapper::mesh() const {
+    if (!mesh_volume_) throw Error("no mesh was asked for", "set mesh_voxel_m");
+    PlyModel mesh = withoutSmallParts(surfaceOf(mesh_volume_->blocks(), options_.mesh_voxel_m),
+                                      options_.mesh_min_part_m2);
+    addNormals(mesh);
+    return mesh;
+}
+
 std::unique_ptr<octomap::OcTree> DenseMapper::octree(LeafValues values) const {
     return toOcTree(octree_volume_, values);
 }
@@ -73,7 +96,8 @@ void DenseMapper::grid(mrpt::maps::COccupancyGridMap2D& grid) const {
 }
 
 std::size_t DenseMapper::bytes() const {
-    return points_.bytes() + octree_volume_.bytes() + (grid_volume_ ? grid_volume_->bytes() : 0);
+    return points_.bytes() + octree_volume_.bytes() + meshBytes() +
+           (grid_volume_ ? grid_volume_->bytes() : 0);
 }
 
 void DenseMapper::checkMemory(double share) const {
@@ -92,7 +116,8 @@ void DenseMapper::checkMemory(double share) const {
  *  resolution, as surfaces do. */
 std::string DenseMapper::coarserResolutions(double growth) const {
     constexpr double spare = 1.1;
-    const double part_limit_mb = options_.memory_limit_mb / (grid_volume_ ? 3. : 2.);
+    const int parts = 2 + (grid_volume_ ? 1 : 0) + (mesh_volume_ ? 1 : 0);
+    const double part_limit_mb = static_cast<double>(options_.memory_limit_mb) / parts;
     std::string keys;
     const auto name = [&](const char* key, double resolution_m, std::size_t part) {
         const double part_mb = growth * 2e-6 * static_cast<double>(part);
@@ -103,6 +128,7 @@ std::string DenseMapper::coarserResolutions(double growth) const {
     name("point_voxel_m", options_.point_voxel_m, points_.bytes());
     name("octree_resolution_m", options_.octree_resolution_m, octree_volume_.bytes());
     if (grid_volume_) name("grid_resolution_m", options_.grid_resolution_m, grid_volume_->bytes());
+    if (mesh_volume_) name("mesh_voxel_m", options_.mesh_voxel_m, mesh_volume_->bytes());
     return keys;
 }
 

@@ -4,6 +4,7 @@
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
 
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 
@@ -79,6 +80,19 @@ std::size_t addSessions(Maps& maps, const MapInputs& inputs, const MapOptions& o
            addSession(maps, inputs, options, inputs.rawlog, {begin, inputs.keyframes.end()});
 }
 
+/** A mesh of earlier maps would be of other poses: without a new one it goes, too.
+ *  \return triangles */
+std::size_t writeMesh(const DenseMapper& dense, const std::string& path) {
+    if (!dense.hasMesh()) {
+        std::error_code ignored;
+        std::filesystem::remove(path, ignored);
+        return 0;
+    }
+    const PlyModel mesh = dense.mesh();
+    writePly(path, mesh);
+    return mesh.triangles.size();
+}
+
 MapSummary writeFiles(const MapInputs& inputs, const Maps& maps, const std::string& folder) {
     const auto path = [&](const char* name) {
         sayDetail(std::string("writing ") + name);
@@ -89,6 +103,7 @@ MapSummary writeFiles(const MapInputs& inputs, const Maps& maps, const std::stri
     savePly(path("points.ply"), points);
     savePcd(path("points.pcd"), points);
     saveMetricMap(path("points.metricmap"), points);
+    summary.triangles = writeMesh(*maps.dense, path("mesh.ply"));
     const auto tree = maps.dense->octree(LeafValues::MaximumLikelihood);
     saveBinaryOcTree(path("octree.bt"), *tree);
     saveColorOcTree(path("octree.ot"), *maps.dense->colorOctree());
@@ -126,6 +141,7 @@ MapSummary writeMaps(const MapInputs& inputs, const MapOptions& options,
     summary.megabytes = megabytes(maps.dense->bytes());
     summary.points_megabytes = megabytes(maps.dense->pointBytes());
     summary.octree_megabytes = megabytes(maps.dense->octreeBytes());
+    summary.mesh_megabytes = megabytes(maps.dense->meshBytes());
     return summary;
 }
 

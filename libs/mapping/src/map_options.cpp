@@ -8,6 +8,10 @@ void MapOptions::describe(OptionVisitor& v) {
     v.real("octree_resolution_m", octree_resolution_m, 0.005, 1, "m",
            "Edge of the octree's leaves");
     v.real("grid_resolution_m", grid_resolution_m, 0.005, 1, "m", "Edge of the 2-D grid's cells");
+    v.real("mesh_voxel_m", mesh_voxel_m, 0, 1, "m",
+           "Edge of the voxels that a mesh is made of, about that of its triangles; 0: no mesh");
+    v.real("mesh_min_part_m2", mesh_min_part_m2, 0, 100, "m^2",
+           "Parts of the mesh that hang on nothing and are smaller are left out");
     v.real("z_min_m", z_min_m, -10, 10, "m",
            "Obstacles of the grid start this high above the floor");
     v.real("z_max_m", z_max_m, -10, 20, "m", "Obstacles of the grid end this high above the floor");

@@ -38,6 +38,32 @@ TEST(Ply, isReadAsWritten) {
     EXPECT_EQ(read.triangles, written.triangles);
 }
 
+TEST(Ply, ofALitMeshIsReadAsWritten) {
+    PlyModel written = coloredTriangle();
+    written.normals = {{0, 0, 1}, {0, -1, 0}, {0.6f, 0, 0.8f}};
+    const PlyModel read = writtenAndRead(written);
+    EXPECT_EQ(read.vertices, written.vertices);
+    EXPECT_EQ(read.normals, written.normals);
+    EXPECT_EQ(read.colors, written.colors);
+    EXPECT_EQ(read.triangles, written.triangles);
+}
+
+/** The order and types that MeshLab and Open3D write. */
+TEST(Ply, ofALitMeshHasTheUsualHeader) {
+    PlyModel model = coloredTriangle();
+    model.normals.assign(3, {0, 0, 1});
+    const TestFolder folder;
+    writePly(folder / "model.ply", model);
+    const std::string header =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\n"
+        "property float y\nproperty float z\nproperty float nx\nproperty float ny\n"
+        "property float nz\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n"
+        "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+    const std::string text = readText(folder / "model.ply");
+    EXPECT_EQ(text.substr(0, header.size()), header);
+    EXPECT_EQ(text.size(), header.size() + 3 * 27 + 13);
+}
+
 TEST(Ply, ofPointsAloneHasNothingElse) {
     PlyModel written;
     written.vertices = {{1, 2, 3}};

@@ -29,6 +29,7 @@
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/evaluation/ply.h"
 #include "rgbd_graphslam/mapping/keyframe_reader.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 #include "rgbd_graphslam/mapping/map_scene.h"
@@ -217,6 +218,25 @@ TEST_F(MapBuilder, everyFileIsWrittenAndReadsBack) {
     ASSERT_TRUE(loops);
     EXPECT_EQ(loops->getLineCount(), 1u);
     EXPECT_FALSE(cv::imread(out + "/map.png").empty());
+}
+
+TEST_F(MapBuilder, meshIsWrittenWhenAskedForAndGoesWithTheMapsItIsOf) {
+    writeWalk(false);
+    MapOptions options;
+    options.mesh_voxel_m = 0.05;
+    const MapSummary summary = writeMaps(inputs_, options, path("out"));
+    const PlyModel mesh = readPly(path("out/mesh.ply"));
+    EXPECT_EQ(mesh.triangles.size(), summary.triangles);
+    EXPECT_EQ(mesh.normals.size(), mesh.vertices.size());
+    EXPECT_EQ(mesh.colors.size(), mesh.vertices.size());
+    int far = 0;
+    for (const Eigen::Vector3f& vertex : mesh.vertices) {
+        const Eigen::Vector3d in_room = T_world_room.inverse() * vertex.cast<double>();
+        far += BoxRoom().distanceToSurface(in_room) > 0.02;
+    }
+    EXPECT_LT(far, 0.05 * static_cast<double>(mesh.vertices.size()));
+    EXPECT_EQ(writeMaps(inputs_, MapOptions(), path("out")).triangles, 0u);
+    EXPECT_FALSE(fs::exists(path("out/mesh.ply")));
 }
 
 /** What robot-map-gui and pf-localization do with the simple map. */

@@ -11,6 +11,8 @@ namespace rgbd_graphslam {
 /** In metres; without triangles a cloud of points. */
 struct PlyModel {
     std::vector<Eigen::Vector3f> vertices;
+    /** Of unit length; as many as vertices, or none. */
+    std::vector<Eigen::Vector3f> normals;
     /** Red, green, blue; as many as vertices, or none. */
     std::vector<std::array<std::uint8_t, 3>> colors;
     /** Indices of vertices. */
@@ -18,7 +20,7 @@ struct PlyModel {
 };
 
 /** Reads ASCII and little-endian binary files; faces of more than three corners become fans, what
- *  is neither place, colour nor face is skipped.
+ *  is neither place, normal, colour nor face is skipped.
  *  \throws Error naming the file for another format, a file that is cut off, a place that is not
  *          finite, an index without vertex, or no vertex at all */
 PlyModel readPly(const std::string& path);

@@ -3,6 +3,8 @@
 #include <memory>
 #include <string>
 
+#include "rgbd_graphslam/evaluation/ply.h"
+#include "rgbd_graphslam/mapping/distance_volume.h"
 #include "rgbd_graphslam/mapping/grid_builder.h"
 #include "rgbd_graphslam/mapping/octree_builder.h"
 #include "rgbd_graphslam/mapping/point_fusion.h"
@@ -13,6 +15,7 @@ namespace rgbd_graphslam {
  * of the poses given; the grid needs them upright with the floor at z = 0. */
 class DenseMapper {
   public:
+    /** \throws Error when a mesh is asked for that is too fine */
     DenseMapper(const MapOptions& options, const Camera& camera);
 
     /** What insert() takes; valid as long as this. \throws Error when it does not fit the camera */
@@ -35,6 +38,11 @@ class DenseMapper {
     /** Fused points, without those in free space when so set. */
     PointMap points() const;
 
+    /** Whether options ask for a mesh. */
+    bool hasMesh() const { return mesh_volume_ != nullptr; }
+    /** Triangles with colours and normals. \throws Error without hasMesh() */
+    PlyModel mesh() const;
+
     std::unique_ptr<octomap::OcTree> octree(LeafValues values = LeafValues::Exact) const;
     std::unique_ptr<octomap::ColorOcTree> colorOctree() const;
     void grid(mrpt::maps::COccupancyGridMap2D& grid) const;
@@ -44,6 +52,7 @@ class DenseMapper {
     std::size_t bytes() const;
     std::size_t pointBytes() const { return points_.bytes(); }
     std::size_t octreeBytes() const { return octree_volume_.bytes(); }
+    std::size_t meshBytes() const { return mesh_volume_ ? mesh_volume_->bytes() : 0; }
 
   private:
     /** \param growth factor on the memory until all is inserted */
@@ -57,6 +66,7 @@ class DenseMapper {
     PointFusion points_;
     OccupancyVolume octree_volume_;
     std::unique_ptr<OccupancyVolume> grid_volume_;  // only when its resolution differs
+    std::unique_ptr<DistanceVolume> mesh_volume_;   // only when asked for
     int keyframes_ = 0;
 };
 

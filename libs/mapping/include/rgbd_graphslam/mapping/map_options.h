@@ -10,6 +10,8 @@ struct MapOptions : Options {
     double point_voxel_m = 0.01;
     double octree_resolution_m = 0.05;
     double grid_resolution_m = 0.05;
+    double mesh_voxel_m = 0;
+    double mesh_min_part_m2 = 0.02;
     double z_min_m = 0.1;
     double z_max_m = 1.5;
     double min_range_m = 0.3;
