@@ -3,6 +3,7 @@
 
 #include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/viewer/snapshot.h"
 #include "rgbd_graphslam/viewer/viewer_app.h"
 
@@ -14,7 +15,7 @@ struct Arguments {
     ViewerJob job;
     std::string snapshot;
     ViewOptions view;
-    bool with_ceiling = false;
+    bool with_ceiling = false, as_mesh = false;
 };
 
 void declare(CLI::App& app, Arguments& args) {
@@ -37,6 +38,8 @@ void declare(CLI::App& app, Arguments& args) {
     add("--elevation", args.view.elevation_deg, "Look down from this angle, degrees")
         ->check(CLI::Range(-89, 90));
     add("--zoom", args.view.zoom, "Above 1 is nearer")->check(positive());
+    app.add_flag("--mesh", args.as_mesh, "Show the mesh in the snapshot instead of the points")
+        ->needs(snapshot);
     app.add_flag("--ceiling", args.with_ceiling, "Leave the ceiling on")->needs(snapshot);
 }
 
@@ -46,13 +49,24 @@ std::string scenePath(const std::string& where) {
     return fs::is_directory(where) ? (fs::path(where) / "scene.3Dscene").string() : where;
 }
 
+/** \throws Error when the folder has none */
+PlyModel meshOf(const std::string& where) {
+    namespace fs = std::filesystem;
+    const fs::path path = fs::path(where) / "mesh.ply";
+    if (!fs::exists(path))
+        throw Error("there is no '" + path.string() + "'",
+                    "make one with rgbd-map OUT --mesh 0.02");
+    return readPly(path.string());
+}
+
 int run(Arguments& args) {
     if (args.snapshot.empty()) {
         runViewer(args.job);
         return 0;
     }
     args.view.cut_ceiling = !args.with_ceiling;
-    renderSnapshot(loadScene(scenePath(args.job.path)), args.view, args.snapshot);
+    const PlyModel mesh = args.as_mesh ? meshOf(args.job.path) : PlyModel();
+    renderSnapshot(loadScene(scenePath(args.job.path)), args.view, args.snapshot, mesh);
     sayInfo("wrote " + args.snapshot);
     return 0;
 }

@@ -85,6 +85,21 @@ void VertexBuffer::attach() {
     glBindVertexArray(0);
 }
 
+void IndexBuffer::set(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    // Not as GL_ELEMENT_ARRAY_BUFFER, which would bind it to whatever vertices are bound.
+    glBindBuffer(GL_COPY_WRITE_BUFFER, buffer_);
+    glBufferData(GL_COPY_WRITE_BUFFER,
+                 static_cast<GLsizeiptr>(triangles.size() * sizeof(triangles[0])), triangles.data(),
+                 GL_STATIC_DRAW);
+    triangles_ = triangles.size();
+}
+
+void IndexBuffer::draw(const VertexBuffer& vertices) const {
+    vertices.bind();
+    glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, buffer_);
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(3 * triangles_), GL_UNSIGNED_INT, nullptr);
+}
+
 ShaderProgram::ShaderProgram(const char* vertex, const char* geometry, const char* fragment)
     : program_(glCreateProgram()) {
     const auto add = [&](GLenum kind, const char* source) {

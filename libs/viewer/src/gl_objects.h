@@ -3,6 +3,7 @@
 #include <nanogui/opengl.h>
 
 #include <Eigen/Core>
+#include <array>
 #include <map>
 #include <opencv2/core/mat.hpp>
 #include <string>
@@ -35,6 +36,22 @@ class VertexBuffer {
 
     GLuint array_ = 0, buffer_ = 0;
     std::size_t size_ = 0, capacity_ = 0;
+};
+
+/** Triangles between vertices of a VertexBuffer. */
+class IndexBuffer {
+  public:
+    IndexBuffer() { glGenBuffers(1, &buffer_); }
+    ~IndexBuffer() { glDeleteBuffers(1, &buffer_); }
+    IndexBuffer(const IndexBuffer&) = delete;
+    IndexBuffer& operator=(const IndexBuffer&) = delete;
+
+    void set(const std::vector<std::array<std::uint32_t, 3>>& triangles);
+    void draw(const VertexBuffer& vertices) const;
+
+  private:
+    GLuint buffer_ = 0;
+    std::size_t triangles_ = 0;
 };
 
 /** A linked set of shaders. */

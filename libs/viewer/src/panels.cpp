@@ -22,6 +22,7 @@ ViewPanel::ViewPanel(nanogui::Widget* screen, ViewerSettings& settings,
     : nanogui::Window(screen, "View"), settings_(settings), changed_(std::move(changed)) {
     column(this, 1);
     addSwitch(this, "points", &ViewerSettings::points);
+    addSwitch(this, "mesh", &ViewerSettings::mesh);
     addSwitch(this, "octree: occupied", &ViewerSettings::octree);
     addSwitch(this, "octree: free", &ViewerSettings::free_space);
     addSwitch(this, "2-D grid", &ViewerSettings::grid);

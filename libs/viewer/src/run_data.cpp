@@ -145,6 +145,7 @@ void readPoses(const fs::path& folder, RunData& run) {
 
 void readMaps(const fs::path& folder, RunData& run) {
     ifThere(folder / "points.ply", [&](const std::string& path) { run.points = loadPly(path); });
+    ifThere(folder / "mesh.ply", [&](const std::string& path) { run.mesh = readPly(path); });
     ifThere(folder / "octree.ot",
             [&](const std::string& path) { run.octree = cellsOf(*loadColorOcTree(path)); });
     ifThere(folder / "grid.gridmap.gz",
@@ -157,6 +158,7 @@ RunData loadRun(const std::string& path) {
     RunData run;
     if (fs::path(path).extension() == ".ply") {
         run.points = loadPly(path);
+        run.mesh = readPly(path);
         return run;
     }
     if (!fs::is_directory(path)) {

@@ -49,6 +49,7 @@ void RunScene::show(RunData run) {
     showTruth();
     renderer_.geometry().setTriangles(Part::Grid,
                                       run_.grid ? gridTriangles(*run_.grid) : Vertices{});
+    renderer_.geometry().setMesh({}, {});
     renderer_.geometry().setOctree({});
     renderer_.geometry().setFreeSpace({});
     renderer_.setPoints(chunked(pointVertices(run_.points)));
@@ -164,6 +165,10 @@ void RunScene::markPoints(const std::vector<Eigen::Vector3d>& points, double cro
 }
 
 void RunScene::prepare(const ViewerSettings& settings) {
+    if (settings.mesh && !run_.mesh.triangles.empty()) {
+        renderer_.geometry().setMesh(meshVertices(run_.mesh), run_.mesh.triangles);
+        run_.mesh = {};  // the renderer has it
+    }
     if (settings.octree && !run_.octree.occupied.empty())
         renderer_.geometry().setOctree(outerFaces(std::exchange(run_.octree.occupied, {})));
     if (settings.free_space && !run_.octree.free.empty())
@@ -178,6 +183,7 @@ SceneView RunScene::viewAt(std::optional<double> stamp_s, const ViewerSettings& 
     };
     put(Part::Floor, settings.floor, whole);
     put(Part::Grid, settings.grid, whole);
+    put(Part::Mesh, settings.mesh, whole);
     put(Part::Octree, settings.octree, whole);
     put(Part::FreeSpace, settings.free_space, whole);
     put(Part::Path, settings.trajectory, 2 * std::max<std::size_t>(now.poses, 1) - 2);

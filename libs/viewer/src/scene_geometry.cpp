@@ -59,6 +59,12 @@ void SceneGeometry::Faces::set(const std::array<Vertices, 6>& faces) {
     buffer.set(all);
 }
 
+void SceneGeometry::setMesh(const Vertices& vertices,
+                            const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+    buffer(Part::Mesh).set(vertices);
+    mesh_triangles_.set(triangles);
+}
+
 void SceneGeometry::drawFirst(const Canvas& canvas) {
     clear();
     drawSolids(canvas);
@@ -79,6 +85,7 @@ void SceneGeometry::prepareSurfaceShader(const Canvas& canvas) {
 
 void SceneGeometry::drawSolids(const Canvas& canvas) {
     prepareSurfaceShader(canvas);
+    if (canvas.view.of(Part::Mesh) > 0) mesh_triangles_.draw(buffer(Part::Mesh));
     if (canvas.view.of(Part::Octree) > 0) drawFaces(occupied_);
     glDisable(GL_CLIP_DISTANCE0);
     surface_.set("shade", 1.f);

@@ -27,11 +27,14 @@ class SceneGeometry {
         buffer(part).write(first, lines);
     }
     void setTriangles(Part part, const Vertices& triangles) { buffer(part).set(triangles); }
+    /** \param triangles indices of vertices */
+    void setMesh(const Vertices& vertices,
+                 const std::vector<std::array<std::uint32_t, 3>>& triangles);
     /** Occupied and free cells. \param faces one list a direction, as outerFaces() makes them */
     void setOctree(const std::array<Vertices, 6>& faces) { occupied_.set(faces); }
     void setFreeSpace(const std::array<Vertices, 6>& faces) { free_.set(faces); }
 
-    /** An empty picture with occupied cells, grid and lines. */
+    /** An empty picture with mesh, occupied cells, grid and lines. */
     void drawFirst(const Canvas& canvas);
     /** \param spacing_m between points, all of them
      *  \param density share of them that the finished picture has; fewer are drawn larger */
@@ -55,6 +58,7 @@ class SceneGeometry {
 
     ShaderProgram surface_, line_;
     std::array<VertexBuffer, static_cast<std::size_t>(Part::Count)> parts_;
+    IndexBuffer mesh_triangles_;
     Faces occupied_, free_;
 };
 

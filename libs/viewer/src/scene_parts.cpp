@@ -212,6 +212,22 @@ Vertices pointVertices(const PointMap& points) {
     return vertices;
 }
 
+Vertices meshVertices(const PlyModel& mesh) {
+    const Eigen::Vector3f to_light = Eigen::Vector3f(0.35f, -0.5f, 0.8f).normalized();
+    constexpr float shadow = 0.55f;
+    Vertices vertices;
+    vertices.reserve(mesh.vertices.size());
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+        const float facing = mesh.normals.empty() ? 1 : mesh.normals[i].dot(to_light);
+        const float light = shadow + (1 - shadow) * (0.5f + 0.5f * facing);
+        const auto rgb =
+            mesh.colors.empty() ? std::array<std::uint8_t, 3>{190, 190, 190} : mesh.colors[i];
+        vertices.push_back(
+            {mesh.vertices[i], {rgb[0], rgb[1], rgb[2], static_cast<std::uint8_t>(255 * light)}});
+    }
+    return vertices;
+}
+
 Eigen::AlignedBox3d boxOf(const RunData& run) {
     Eigen::AlignedBox3d box;
     for (const StampedPose& pose : run.trajectory) box.extend(pose.T_world_cam.t);

@@ -11,6 +11,7 @@ namespace rgbd_graphslam {
 enum class Part {
     Floor,
     Grid,
+    Mesh,
     Octree,
     FreeSpace,
     Path,
@@ -34,7 +35,7 @@ struct SceneView {
     Eigen::Vector2i size_px{1, 1};
     bool color_by_height = false;
     Eigen::Vector2f height_range_m{0, 2.5f};
-    float highest_m = 1e9f;  // of points and octree
+    float highest_m = 1e9f;  // of points, mesh and octree
     float least_point_px = 2;
     bool points = true;
     /** In which a picture of a moving view is to be drawn. */

@@ -19,7 +19,8 @@ void main() {
     gl_Position = clip_from_world * vec4(position, 1.0);
     gl_ClipDistance[0] = highest - position.z;
     gl_PointSize = clamp(spacing_px / gl_Position.w, least_px, most_px);
-    tint = shade * (by_height != 0 ? heightColor(position.z) : color.rgb);
+    // Alpha tells how much light falls on the surface.
+    tint = shade * color.a * (by_height != 0 ? heightColor(position.z) : color.rgb);
 })";
 
 const char* const surface_fragment_shader = R"(#version 330 core

@@ -4,6 +4,7 @@
 #include <mrpt/opengl/CFBORender.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfTriangles.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
@@ -17,6 +18,7 @@
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/mapping/map_scene.h"
+#include "rgbd_graphslam/viewer/scene_parts.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -53,6 +55,36 @@ CPointCloudColoured::Ptr pointsBelow(const CPointCloudColoured& points, float ce
     }
     kept->enableVariablePointSize(false);
     return kept;
+}
+
+/** Those of a mesh: what frames the picture. */
+CPointCloudColoured::Ptr verticesBelow(const PlyModel& mesh, float ceiling_m) {
+    auto kept = CPointCloudColoured::Create();
+    for (const Eigen::Vector3f& p : mesh.vertices)
+        if (p.z() <= ceiling_m) kept->push_back(p.x(), p.y(), p.z(), 0, 0, 0);
+    return kept;
+}
+
+/** Lit as in the window. */
+mrpt::opengl::CSetOfTriangles::Ptr trianglesBelow(const PlyModel& mesh, float ceiling_m) {
+    const Vertices vertices = meshVertices(mesh);
+    auto object = mrpt::opengl::CSetOfTriangles::Create();
+    object->enableLight(false);
+    for (const auto& corners : mesh.triangles) {
+        mrpt::opengl::TTriangle triangle;
+        bool below = true;
+        for (int i = 0; i < 3; ++i) {
+            const auto& [p, color] = vertices[corners[i]];
+            below &= p.z() <= ceiling_m;
+            const auto lit = [&](int channel) {
+                return static_cast<std::uint8_t>(color[channel] * color[3] / 255);
+            };
+            triangle.vertices[i].xyzrgba.pt = {p.x(), p.y(), p.z()};
+            triangle.vertices[i].setColor(mrpt::img::TColor(lit(0), lit(1), lit(2)));
+        }
+        if (below) object->insertTriangle(triangle);
+    }
+    return object;
 }
 
 /** The box of all but a few stray points, grown by the paths. */
@@ -125,8 +157,8 @@ void replace(COpenGLScene& scene, const mrpt::opengl::CRenderizable::Ptr& old,
     scene.insert(by);
 }
 
-/** A shallow copy with other points, and lines of the width they ask for. */
-COpenGLScene restyled(const COpenGLScene& scene, const CPointCloudColoured::Ptr& points,
+/** A shallow copy with something else for points, and lines of the width they ask for. */
+COpenGLScene restyled(const COpenGLScene& scene, const mrpt::opengl::CRenderizable::Ptr& points,
                       double pixel_m) {
     COpenGLScene copy = scene;
     replace(copy, copy.getViewport()->getByName(scene_names::points), points);
@@ -175,17 +207,22 @@ COpenGLScene loadScene(const std::string& path) {
 }
 
 void renderSnapshot(const COpenGLScene& scene, const ViewOptions& options,
-                    const std::string& png_path) {
+                    const std::string& png_path, const PlyModel& mesh) {
+    const float highest_m = options.cut_ceiling ? ceilingOf(scene) : INFINITY;
+    const bool as_mesh = !mesh.triangles.empty();
     const auto all = objectNamed<CPointCloudColoured>(scene, scene_names::points);
-    const auto points = all ? pointsBelow(*all, options.cut_ceiling ? ceilingOf(scene) : INFINITY)
-                            : CPointCloudColoured::Create();
+    const auto points = as_mesh ? verticesBelow(mesh, highest_m)
+                        : all   ? pointsBelow(*all, highest_m)
+                                : CPointCloudColoured::Create();
     mrpt::opengl::CCamera camera;
     aim(camera, frameOf(scene, *points), options);
     const double pixel_m = camera.getZoomDistance() / focalLength(options);
     // So that points of the usual spacing close up to a surface.
     points->setPointSize(
         std::clamp(1.2f * point_spacing_m / static_cast<float>(pixel_m), 2.f, 16.f));
-    const cv::Mat picture = rendered(restyled(scene, points, pixel_m), camera, options);
+    mrpt::opengl::CRenderizable::Ptr surface = points;
+    if (as_mesh) surface = trianglesBelow(mesh, highest_m);
+    const cv::Mat picture = rendered(restyled(scene, surface, pixel_m), camera, options);
     writeAtomically(png_path,
                     [&](const std::string& temporary) { return cv::imwrite(temporary, picture); });
 }

@@ -19,6 +19,7 @@ std::vector<Shortcut> ViewerWindow::viewShortcuts() {
         {GLFW_KEY_T, "T", "from above", [this] { lookDown(); }},
         {GLFW_KEY_C, "C", "follow the camera", [this] { toggleFollowing(); }},
         {GLFW_KEY_P, "P", "points", flips(&ViewerSettings::points)},
+        {GLFW_KEY_N, "N", "mesh", flips(&ViewerSettings::mesh)},
         {GLFW_KEY_O, "O", "octree: occupied cells", flips(&ViewerSettings::octree)},
         {GLFW_KEY_U, "U", "octree: free cells", flips(&ViewerSettings::free_space)},
         {GLFW_KEY_G, "G", "2-D grid", flips(&ViewerSettings::grid)},

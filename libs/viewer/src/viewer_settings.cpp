@@ -18,6 +18,7 @@ void ViewerSettings::describe(OptionVisitor& v) {
     v.integer("window_width", window_width, 320, farthest, "px", "Width of the window");
     v.integer("window_height", window_height, 240, farthest, "px", "Height of the window");
     v.flag("points", points, "Coloured points");
+    v.flag("mesh", mesh, "Triangles of mesh.ply");
     v.flag("octree", octree, "Occupied cells of the octree");
     v.flag("free_space", free_space, "Free cells of the octree");
     v.flag("grid", grid, "2-D grid");

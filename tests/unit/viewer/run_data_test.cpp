@@ -103,6 +103,27 @@ TEST_F(RunFolder, whatIsNoRunIsRefused) {
     EXPECT_THROW(loadRun(folder_.string()), Error);
 }
 
+PlyModel triangle() {
+    PlyModel mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.colors = {{200, 30, 20}, {200, 30, 20}, {200, 30, 20}};
+    mesh.normals.assign(3, {0, 0, 1});
+    mesh.triangles = {{0, 1, 2}};
+    return mesh;
+}
+
+TEST_F(RunFolder, meshIsReadWhereThereIsOne) {
+    RunData run;
+    load(run);
+    EXPECT_TRUE(run.mesh.triangles.empty());
+    writePly(path("mesh.ply"), triangle());
+    load(run);
+    EXPECT_EQ(run.mesh.triangles.size(), 1U);
+    EXPECT_EQ(loadRun(path("mesh.ply")).mesh.triangles.size(), 1U);
+    write("mesh.ply", "ply");
+    EXPECT_THAT(load(run), testing::HasSubstr("mesh.ply"));
+}
+
 TEST_F(RunFolder, aCloudAloneCanBeOpened) {
     savePly(path("points.ply"), {{{1, 2, 3}, {4, 5, 6}}});
     const RunData run = loadRun(path("points.ply"));

@@ -120,6 +120,19 @@ TEST(GridTriangles, equalNeighboursShareARectangleAndUnseenCellsAreOpen) {
     EXPECT_FLOAT_EQ(triangles[12].position.y(), 2.1f);
 }
 
+TEST(MeshVertices, areBrighterTowardsTheLight) {
+    PlyModel mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}};
+    EXPECT_EQ(meshVertices(mesh)[0].color, (Rgba{190, 190, 190, 255}));
+    mesh.normals = {{0, 0, 1}, {0, 0, -1}};
+    mesh.colors = {{10, 20, 30}, {10, 20, 30}};
+    const Vertices vertices = meshVertices(mesh);
+    ASSERT_EQ(vertices.size(), 2U);
+    EXPECT_EQ(vertices[0].color[1], 20);
+    EXPECT_GT(vertices[0].color[3], vertices[1].color[3] + 50);
+    EXPECT_GT(vertices[1].color[3], 100);
+}
+
 TEST(BoxOf, leavesStrayPointsOut) {
     RunData run;
     run.trajectory = alongX(2);

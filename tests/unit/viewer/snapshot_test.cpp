@@ -57,6 +57,23 @@ TEST_F(Snapshot, showsTheFloorThroughTheCeilingUnlessToldNotTo) {
     EXPECT_GT(pixelsLike(cv::imread(path("b.png")), {200, 30, 20}), 1000);
 }
 
+TEST_F(Snapshot, meshTakesThePlaceOfThePoints) {
+    PlyModel mesh;
+    mesh.vertices = {{-0.5f, -0.5f, 0}, {0.5f, -0.5f, 0}, {0.5f, 0.5f, 0}, {-0.5f, 0.5f, 0}};
+    mesh.colors.assign(4, {20, 200, 30});
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    ViewOptions view;
+    view.width_px = 320, view.height_px = 240, view.elevation_deg = 89;
+    const auto scene = makeScene(MapInputs(), sheet(0, {200, 30, 20}), Camera());
+    renderSnapshot(scene, view, path("a.png"), mesh);
+    const cv::Mat3b image = cv::imread(path("a.png"));
+    EXPECT_GT(pixelsLike(image, {30, 200, 20}), 5000);
+    EXPECT_EQ(pixelsLike(image, {20, 30, 200}), 0);
+    for (auto& vertex : mesh.vertices) vertex.z() = 2.5f;  // above people's heads
+    renderSnapshot(scene, view, path("a.png"), mesh);
+    EXPECT_EQ(pixelsLike(cv::imread(path("a.png")), {30, 200, 20}), 0);
+}
+
 TEST_F(Snapshot, pathsAreSeen) {
     MapInputs inputs;
     for (int i = 0; i < 20; ++i)

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "rgbd_graphslam/evaluation/ply.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 #include "rgbd_graphslam/mapping/point_fusion.h"
 #include "rgbd_graphslam/viewer/vertex.h"
@@ -56,6 +57,7 @@ struct RunData {
     std::vector<FrameNote> frames;
     std::vector<float> frame_times_ms;  // wall time of tracking each of them
     PointMap points;
+    PlyModel mesh;
     OctreeCells octree;
     std::optional<GridMap> grid;
 };

@@ -41,6 +41,10 @@ Vertices gridTriangles(const GridMap& grid);
 
 Vertices pointVertices(const PointMap& points);
 
+/** Vertices of a mesh, with the light that falls on them as alpha: from above and a little aside,
+ *  mild enough to leave the colours as they are. Grey where the mesh has no colours. */
+Vertices meshVertices(const PlyModel& mesh);
+
 /** The box of everything but a few stray points, for framing. */
 Eigen::AlignedBox3d boxOf(const RunData& run);
 

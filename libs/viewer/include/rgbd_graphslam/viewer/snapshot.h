@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include "rgbd_graphslam/evaluation/ply.h"
+
 namespace rgbd_graphslam {
 
 /** From where a scene is looked at; the scene is always framed whole. */
@@ -23,8 +25,9 @@ mrpt::opengl::COpenGLScene loadScene(const std::string& path);
 
 /** Renders with software or hardware OpenGL over EGL; needs no display.
  *  \param scene as makeScene makes it, or any other
+ *  \param mesh drawn instead of the scene's points when it has triangles
  *  \throws Error when there is no EGL, or the picture cannot be written */
 void renderSnapshot(const mrpt::opengl::COpenGLScene& scene, const ViewOptions& options,
-                    const std::string& png_path);
+                    const std::string& png_path, const PlyModel& mesh = {});
 
 }  // namespace rgbd_graphslam

@@ -8,8 +8,8 @@ namespace rgbd_graphslam {
 
 struct ViewerSettings : Options {
     int window_x = -1, window_y = -1, window_width = 1280, window_height = 800;
-    bool points = true, octree = false, free_space = false, grid = false, floor = true,
-         trajectory = true;
+    bool points = true, mesh = false, octree = false, free_space = false, grid = false,
+         floor = true, trajectory = true;
     bool truth = true, errors = false, keyframes = true, covisibility = false, loops = true;
     bool before_loops = false, features = true;
     bool view_panel = true, image_panel = true, plot_panel = true, time_panel = true;
