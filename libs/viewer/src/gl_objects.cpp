@@ -85,7 +85,7 @@ void VertexBuffer::attach() {
     glBindVertexArray(0);
 }
 
-void IndexBuffer::set(const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+void IndexBuffer::set(const Triangles& triangles) {
     // Not as GL_ELEMENT_ARRAY_BUFFER, which would bind it to whatever vertices are bound.
     glBindBuffer(GL_COPY_WRITE_BUFFER, buffer_);
     glBufferData(GL_COPY_WRITE_BUFFER,

@@ -3,7 +3,6 @@
 #include <nanogui/opengl.h>
 
 #include <Eigen/Core>
-#include <array>
 #include <map>
 #include <opencv2/core/mat.hpp>
 #include <string>
@@ -46,7 +45,7 @@ class IndexBuffer {
     IndexBuffer(const IndexBuffer&) = delete;
     IndexBuffer& operator=(const IndexBuffer&) = delete;
 
-    void set(const std::vector<std::array<std::uint32_t, 3>>& triangles);
+    void set(const Triangles& triangles);
     void draw(const VertexBuffer& vertices) const;
 
   private:

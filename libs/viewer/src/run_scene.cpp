@@ -16,6 +16,7 @@ constexpr Rgba floor_color = {198, 204, 213, 255}, trajectory_color = {235, 95, 
                now_color = {235, 95, 0, 255}, selection_color = {255, 190, 0, 255},
                measure_color = {200, 0, 200, 255};
 constexpr double ceiling_margin_m = 0.1;
+constexpr std::size_t most_moving_triangles = 40000;
 /** Above the floor, and above the first camera while the floor is not known. */
 constexpr double lowest_ceiling_m = 2, lowest_live_ceiling_m = 0.6;
 
@@ -49,7 +50,7 @@ void RunScene::show(RunData run) {
     showTruth();
     renderer_.geometry().setTriangles(Part::Grid,
                                       run_.grid ? gridTriangles(*run_.grid) : Vertices{});
-    renderer_.geometry().setMesh({}, {});
+    renderer_.geometry().setMesh({}, {}, {});
     renderer_.geometry().setOctree({});
     renderer_.geometry().setFreeSpace({});
     renderer_.setPoints(chunked(pointVertices(run_.points)));
@@ -166,7 +167,8 @@ void RunScene::markPoints(const std::vector<Eigen::Vector3d>& points, double cro
 
 void RunScene::prepare(const ViewerSettings& settings) {
     if (settings.mesh && !run_.mesh.triangles.empty()) {
-        renderer_.geometry().setMesh(meshVertices(run_.mesh), run_.mesh.triangles);
+        renderer_.geometry().setMesh(meshVertices(run_.mesh), run_.mesh.triangles,
+                                     fewerTriangles(run_.mesh, most_moving_triangles));
         run_.mesh = {};  // the renderer has it
     }
     if (settings.octree && !run_.octree.occupied.empty())

@@ -59,10 +59,11 @@ void SceneGeometry::Faces::set(const std::array<Vertices, 6>& faces) {
     buffer.set(all);
 }
 
-void SceneGeometry::setMesh(const Vertices& vertices,
-                            const std::vector<std::array<std::uint32_t, 3>>& triangles) {
+void SceneGeometry::setMesh(const Vertices& vertices, const Triangles& triangles,
+                            const Triangles& fewer) {
     buffer(Part::Mesh).set(vertices);
     mesh_triangles_.set(triangles);
+    fewer_triangles_.set(fewer);
 }
 
 void SceneGeometry::drawFirst(const Canvas& canvas) {
@@ -85,7 +86,8 @@ void SceneGeometry::prepareSurfaceShader(const Canvas& canvas) {
 
 void SceneGeometry::drawSolids(const Canvas& canvas) {
     prepareSurfaceShader(canvas);
-    if (canvas.view.of(Part::Mesh) > 0) mesh_triangles_.draw(buffer(Part::Mesh));
+    if (canvas.view.of(Part::Mesh) > 0)
+        (canvas.moving ? fewer_triangles_ : mesh_triangles_).draw(buffer(Part::Mesh));
     if (canvas.view.of(Part::Octree) > 0) drawFaces(occupied_);
     glDisable(GL_CLIP_DISTANCE0);
     surface_.set("shade", 1.f);

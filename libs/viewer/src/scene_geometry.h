@@ -14,6 +14,7 @@ struct Canvas {
     const SceneView& view;
     Eigen::Vector2i size_px;
     int reduction = 1;  // window pixels a pixel
+    bool moving = false;
 };
 
 /** Lines, triangles and cells, and how all that is in a scene is drawn. */
@@ -27,9 +28,8 @@ class SceneGeometry {
         buffer(part).write(first, lines);
     }
     void setTriangles(Part part, const Vertices& triangles) { buffer(part).set(triangles); }
-    /** \param triangles indices of vertices */
-    void setMesh(const Vertices& vertices,
-                 const std::vector<std::array<std::uint32_t, 3>>& triangles);
+    /** \param fewer for pictures of a moving view */
+    void setMesh(const Vertices& vertices, const Triangles& triangles, const Triangles& fewer);
     /** Occupied and free cells. \param faces one list a direction, as outerFaces() makes them */
     void setOctree(const std::array<Vertices, 6>& faces) { occupied_.set(faces); }
     void setFreeSpace(const std::array<Vertices, 6>& faces) { free_.set(faces); }
@@ -58,7 +58,7 @@ class SceneGeometry {
 
     ShaderProgram surface_, line_;
     std::array<VertexBuffer, static_cast<std::size_t>(Part::Count)> parts_;
-    IndexBuffer mesh_triangles_;
+    IndexBuffer mesh_triangles_, fewer_triangles_;
     Faces occupied_, free_;
 };
 

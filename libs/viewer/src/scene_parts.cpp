@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <unordered_set>
 
 namespace rgbd_graphslam {
@@ -134,6 +135,24 @@ float quantile(std::vector<float>& values, double share) {
     return *nth;
 }
 
+/** Triangles between the first vertices of cubes. */
+Triangles clustered(const PlyModel& mesh, float cell_m) {
+    std::map<std::array<int, 3>, std::uint32_t> firsts;
+    std::vector<std::uint32_t> first_of;
+    for (const Eigen::Vector3f& p : mesh.vertices) {
+        const Eigen::Vector3i cell = (p / cell_m).array().floor().cast<int>();
+        const auto index = static_cast<std::uint32_t>(first_of.size());
+        first_of.push_back(
+            firsts.emplace(std::array{cell.x(), cell.y(), cell.z()}, index).first->second);
+    }
+    Triangles triangles;
+    for (const auto& [i, j, k] : mesh.triangles) {
+        const std::uint32_t a = first_of[i], b = first_of[j], c = first_of[k];
+        if (a != b && b != c && c != a) triangles.push_back({a, b, c});
+    }
+    return triangles;
+}
+
 }  // namespace
 
 Vertices pathLines(const Trajectory& poses, const std::vector<double>& unplaced_s,
@@ -226,6 +245,14 @@ Vertices meshVertices(const PlyModel& mesh) {
             {mesh.vertices[i], {rgb[0], rgb[1], rgb[2], static_cast<std::uint8_t>(255 * light)}});
     }
     return vertices;
+}
+
+Triangles fewerTriangles(const PlyModel& mesh, std::size_t most) {
+    constexpr float finest_m = 0.03f;
+    Triangles fewer = mesh.triangles;
+    for (float cell_m = finest_m; fewer.size() > most; cell_m *= 1.5f)
+        fewer = clustered(mesh, cell_m);
+    return fewer;
 }
 
 Eigen::AlignedBox3d boxOf(const RunData& run) {

@@ -62,7 +62,8 @@ void SceneRenderer::draw(const SceneView& view) {
     glFinish();
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     if (share < 1 || taken.count() > view_.time_s) learnSpeed(taken.count());
-    if (share < 1 || moving_.reduction > 1) begin(resting_, 1);
+    const bool is_finished = share >= 1 && moving_.reduction == 1 && view_.of(Part::Mesh) == 0;
+    if (!is_finished) begin(resting_, 1);
 }
 
 bool SceneRenderer::refine() {
@@ -119,7 +120,7 @@ void SceneRenderer::learnSpeed(double seconds) {
 
 /** Adds the points up to a share of the useful ones to the picture that is bound. */
 void SceneRenderer::drawSlice(double to_share, double density, bool is_last) {
-    const Canvas canvas{view_, size_px_, drawn_->reduction};
+    const Canvas canvas{view_, size_px_, drawn_->reduction, drawn_ == &moving_};
     drawn_->target.bind();
     glEnable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);

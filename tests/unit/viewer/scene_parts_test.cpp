@@ -133,6 +133,34 @@ TEST(MeshVertices, areBrighterTowardsTheLight) {
     EXPECT_GT(vertices[1].color[3], 100);
 }
 
+TEST(FewerTriangles, spanTheSameSurface) {
+    PlyModel mesh;  // a square of 1 m in steps of 1 cm
+    constexpr std::uint32_t n = 101;
+    for (std::uint32_t y = 0; y < n; ++y)
+        for (std::uint32_t x = 0; x < n; ++x)
+            mesh.vertices.emplace_back(0.01f * static_cast<float>(x), 0.01f * static_cast<float>(y),
+                                       0.f);
+    for (std::uint32_t y = 0; y + 1 < n; ++y) {
+        for (std::uint32_t x = 0; x + 1 < n; ++x) {
+            const std::uint32_t i = y * n + x;
+            mesh.triangles.push_back({i, i + 1, i + n + 1});
+            mesh.triangles.push_back({i, i + n + 1, i + n});
+        }
+    }
+    EXPECT_EQ(fewerTriangles(mesh, 20000), mesh.triangles);
+    const Triangles fewer = fewerTriangles(mesh, 1000);
+    EXPECT_LE(fewer.size(), 1000U);
+    EXPECT_GT(fewer.size(), 300U);
+    double area = 0;
+    for (const auto& [a, b, c] : fewer) {
+        const Eigen::Vector3f u = mesh.vertices[b] - mesh.vertices[a],
+                              v = mesh.vertices[c] - mesh.vertices[a];
+        area += 0.5 * static_cast<double>(u.x() * v.y() - u.y() * v.x());  // none is turned over
+    }
+    EXPECT_NEAR(area, 1, 0.1);
+    EXPECT_TRUE(fewerTriangles({}, 0).empty());
+}
+
 TEST(BoxOf, leavesStrayPointsOut) {
     RunData run;
     run.trajectory = alongX(2);

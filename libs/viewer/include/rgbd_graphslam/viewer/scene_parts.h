@@ -45,6 +45,12 @@ Vertices pointVertices(const PointMap& points);
  *  mild enough to leave the colours as they are. Grey where the mesh has no colours. */
 Vertices meshVertices(const PlyModel& mesh);
 
+/** A mesh to be drawn fast, of the same vertices: of those in a cube one stands for all, which
+ * leaves larger triangles (Rossignac and Borrel, "Multi-resolution 3D approximations for rendering
+ * complex scenes", 1993). The cubes are as large as it takes. \param most how many triangles; a
+ * mesh that has no more stays as it is */
+Triangles fewerTriangles(const PlyModel& mesh, std::size_t most);
+
 /** The box of everything but a few stray points, for framing. */
 Eigen::AlignedBox3d boxOf(const RunData& run);
 

@@ -18,4 +18,7 @@ static_assert(sizeof(Vertex) == 16);
 
 using Vertices = std::vector<Vertex>;
 
+/** Indices of vertices. */
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
 }  // namespace rgbd_graphslam
