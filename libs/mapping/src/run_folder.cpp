@@ -35,6 +35,13 @@ std::string findRawlog(const nlohmann::json& summary, const fs::path& folder) {
     throw Error("the rawlog '" + path.string() + "' of this run is gone", "give --rawlog FILE");
 }
 
+/** As it was given to rgbd-slam; nothing when the run was not localised. */
+std::optional<std::string> mapFolderOf(const nlohmann::json& summary) {
+    const auto map = summary.value("map", nlohmann::json());
+    if (!map.is_object() || map.value("use", "") != "localise") return std::nullopt;
+    return map.value("folder", "");
+}
+
 std::vector<MapLoopEdge> loopsOf(const nlohmann::json& summary) {
     std::vector<MapLoopEdge> loops;
     for (const auto& edge : summary.value("loop_edges", nlohmann::json::array())) {
@@ -80,6 +87,10 @@ MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
     const fs::path root(folder);
     if (!fs::is_directory(root))
         throw Error("'" + folder + "' is no folder", "give the output folder of rgbd-slam");
+    if (const auto map_folder = mapFolderOf(readSummary(root / "summary.json"))) {
+        throw Error("the run in '" + folder + "' was localised and has no map of its own",
+                    "give the folder of the map, '" + *map_folder + "'");
+    }
     if (!fs::exists(root / "keyframes.txt") || !fs::exists(root / "trajectory.txt")) {
         throw Error("'" + folder +
                         "' is no output folder of rgbd-slam: it has no keyframes.txt or no "
@@ -104,6 +115,24 @@ MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
     const fs::path before = root / "keyframes_before_loops.txt";
     if (fs::exists(before)) inputs.keyframes_before_loops = readTumPoses(before.string());
     return inputs;
+}
+
+std::optional<LocalisedRun> readLocalisedRun(const std::string& folder) {
+    const fs::path root(folder);
+    const auto map_folder = mapFolderOf(readSummary(root / "summary.json"));
+    if (!map_folder) return std::nullopt;
+    LocalisedRun run;
+    for (const fs::path& candidate : {fs::path(*map_folder), root / *map_folder}) {
+        const bool has_map = fs::exists(candidate / "keyframes.txt");
+        if (run.map_folder.empty() && has_map) run.map_folder = candidate.string();
+    }
+    if (run.map_folder.empty()) {
+        throw Error("the map '" + *map_folder + "' that this run was localised in is gone",
+                    "run rgbd-slam again");
+    }
+    run.trajectory = readTumTrajectory((root / "trajectory.txt").string());
+    run.unplaced_s = unplacedFrames(root / "frames.csv", run.trajectory);
+    return run;
 }
 
 MapOptions readRunOptions(const std::string& folder) {

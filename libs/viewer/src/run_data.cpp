@@ -122,6 +122,12 @@ MapInputs readInputs(const std::string& folder) {
     }
 }
 
+void readNotes(const fs::path& folder, RunData& run) {
+    ifThere(folder / "frames.csv", [&](const std::string& path) { run.frames = readFrames(path); });
+    ifThere(folder / "frame_times.csv",
+            [&](const std::string& path) { run.frame_times_ms = readFrameTimes(path); });
+}
+
 void readPoses(const fs::path& folder, RunData& run) {
     MapInputs inputs = readInputs(folder.string());
     run.rawlog = std::move(inputs.rawlog);
@@ -138,9 +144,7 @@ void readPoses(const fs::path& folder, RunData& run) {
             [&](const std::string& path) { run.covisibility = readCovisibility(path, count); });
     sortByLater(run.loops);
     sortByLater(run.covisibility);
-    ifThere(folder / "frames.csv", [&](const std::string& path) { run.frames = readFrames(path); });
-    ifThere(folder / "frame_times.csv",
-            [&](const std::string& path) { run.frame_times_ms = readFrameTimes(path); });
+    readNotes(folder, run);
 }
 
 void readMaps(const fs::path& folder, RunData& run) {
@@ -152,11 +156,31 @@ void readMaps(const fs::path& folder, RunData& run) {
             [&](const std::string& path) { run.grid = readGrid(path); });
 }
 
+/** A run that made a map. */
+RunData loadMapped(const std::string& folder) {
+    RunData run;
+    run.folder = folder;
+    readPoses(folder, run);
+    readMaps(folder, run);
+    return run;
+}
+
+/** The map of the one run with the way of the other. */
+RunData loadLocalised(LocalisedRun localised, const std::string& folder) {
+    RunData run = loadMapped(localised.map_folder);
+    run.folder = folder;
+    run.trajectory = std::move(localised.trajectory);
+    run.unplaced_s = std::move(localised.unplaced_s);
+    run.truth = {};
+    readNotes(folder, run);
+    return run;
+}
+
 }  // namespace
 
 RunData loadRun(const std::string& path) {
-    RunData run;
     if (fs::path(path).extension() == ".ply") {
+        RunData run;
         run.points = loadPly(path);
         run.mesh = readPly(path);
         return run;
@@ -165,10 +189,8 @@ RunData loadRun(const std::string& path) {
         throw Error("'" + path + "' is neither a folder nor a .ply",
                     "give the output folder of rgbd-slam");
     }
-    run.folder = path;
-    readPoses(path, run);
-    readMaps(path, run);
-    return run;
+    if (auto localised = readLocalisedRun(path)) return loadLocalised(std::move(*localised), path);
+    return loadMapped(path);
 }
 
 }  // namespace rgbd_graphslam

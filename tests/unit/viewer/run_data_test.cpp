@@ -9,6 +9,7 @@
 
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/mapping/map_files.h"
+#include "rgbd_graphslam/mapping/run_folder.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -66,6 +67,28 @@ TEST_F(RunFolder, isReadWithoutItsRecordingAndMaps) {
     EXPECT_TRUE(run.frames[1].lost);
     EXPECT_EQ(run.unplaced_s, std::vector<double>{3.5});
     EXPECT_EQ(run.frame_times_ms, (std::vector<float>{6.5f, 30}));
+}
+
+TEST_F(RunFolder, aLocalisedRunComesWithItsMap) {
+    const fs::path later = folder_ / "later";
+    fs::create_directories(later);
+    savePly(path("points.ply"), {{{1, 2, 3}, {4, 5, 6}}});
+    write("later/trajectory.txt", toTumText(poses(2)));
+    write("later/frames.csv", "stamp_s,origin,inliers,keyframe\n1.0,tracked,70,0\n9.0,lost,0,\n");
+    write("later/summary.json",
+          R"({"rawlog": "later.rawlog", "map": {"folder": "..", "use": "localise"}})");
+    const RunData run = loadRun(later.string());
+    EXPECT_EQ(run.folder, later.string());
+    EXPECT_EQ(run.trajectory.size(), 2U);
+    EXPECT_EQ(run.keyframes.size(), 3U);
+    EXPECT_EQ(run.points.size(), 1U);
+    EXPECT_EQ(run.unplaced_s, std::vector<double>{9.0});
+    ASSERT_EQ(run.frames.size(), 2U);
+    EXPECT_EQ(run.frames[0].inliers, 70);
+    EXPECT_TRUE(run.truth.empty());
+    EXPECT_THROW(readRunFolder(later.string(), ""), Error);  // of which no map can be made
+    write("later/summary.json", R"({"map": {"folder": "/no/such/map", "use": "localise"}})");
+    EXPECT_THROW(loadRun(later.string()), Error);
 }
 
 TEST_F(RunFolder, damagedMapsAreNamedAndTheRestIsShown) {

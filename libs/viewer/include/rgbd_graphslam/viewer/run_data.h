@@ -63,7 +63,7 @@ struct RunData {
 };
 
 /** Reads what is there; only the trajectory must be. Maps that are missing stay empty, damaged ones
- *  are named in a warning.
+ *  are named in a warning. A run that was localised comes with the map that it was localised in.
  *  \param path output folder of rgbd-slam, or a `.ply`
  *  \throws Error when there is no run */
 RunData loadRun(const std::string& path);
