@@ -5,6 +5,7 @@
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <mrpt/maps/CSimplePointsMap.h>
+#include <mrpt/opengl/CAssimpModel.h>
 #include <mrpt/serialization/CArchive.h>
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
@@ -15,6 +16,7 @@
 
 #include "box_room.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/evaluation/ply.h"
 #include "rgbd_graphslam/mapping/dense_mapper.h"
 
 namespace rgbd_graphslam {
@@ -79,6 +81,21 @@ void expectSameOccupancy(const Tree& tree, const OccupancyVolume& volume) {
         in_tree += edge * edge * edge;
     }
     EXPECT_EQ(in_tree, known);
+}
+
+/** The reader of SceneViewer3D's "Import 3D model". */
+TEST_F(MapFiles, meshIsReadByAssimpAsWell) {
+    PlyModel mesh;
+    mesh.vertices = {{1, 2, 3}, {4, 2, 3}, {1, 5, 3}, {1, 2, 6}};
+    mesh.normals.assign(4, Eigen::Vector3f(0, 0, 1));
+    mesh.colors.assign(4, {10, 20, 30});
+    mesh.triangles = {{0, 1, 2}, {0, 1, 3}};
+    writePly(path("mesh.ply"), mesh);
+    mrpt::opengl::CAssimpModel model;
+    ASSERT_NO_THROW(model.loadScene(path("mesh.ply")));
+    const auto box = model.getBoundingBox();
+    EXPECT_EQ(box.min, mrpt::math::TPoint3D(1, 2, 3));
+    EXPECT_EQ(box.max, mrpt::math::TPoint3D(4, 5, 6));
 }
 
 TEST_F(MapFiles, binaryOctreeReadsBackLeafByLeaf) {
