@@ -119,7 +119,6 @@ struct PlaceIndex::Tree {
         const int first_child = static_cast<int>(nodes.size());
         nodes.resize(nodes.size() + 2);
         nodes[leaf].bit = bit;
-        nodes[leaf].entries = {};
         for (const int side : {0, 1}) nodes[leaf].child[side] = first_child + side;
         for (const Entry& entry : entries) {
             nodes[first_child + bitOf(entry.descriptor, bit)].entries.push_back(entry);

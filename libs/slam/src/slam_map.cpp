@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rgbd_graphslam/core/free_memory.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
 
 namespace rgbd_graphslam {
@@ -86,7 +87,7 @@ int SlamMap::addKeyframe(Frame frame, const SE3& T_cam_world, int part, Link lin
     keyframe.frame = std::move(frame);
     keyframe.frame.view = {};
     keyframe.T_cam_world = T_cam_world;
-    if (!keyframes_.empty()) keyframes_.back().frame.patches = {};
+    if (!keyframes_.empty()) freeMemory(keyframes_.back().frame.patches);
     keyframes_.push_back(std::move(keyframe));
     votes_.push_back(0);
     return keyframes_.back().id;
@@ -135,7 +136,8 @@ int SlamMap::freeLandmark() {
 }
 
 void SlamMap::bury(int landmark) {
-    landmarks_[landmark].observations = {};
+    freeMemory(landmarks_[landmark].observations);
+    landmarks_[landmark].patch.reset();
     landmarks_[landmark].alive = false;
     --alive_;
     dead_.emplace_back(landmark, keyframes_.size());
@@ -217,7 +219,7 @@ void SlamMap::cull(int keyframe, int parent) {
     const double stamp_s = culled.frame.stamp_s;
     culled.frame = Frame{};
     culled.frame.stamp_s = stamp_s;
-    culled.landmarks = {};
+    freeMemory(culled.landmarks);
 }
 
 SE3 SlamMap::T_cam_world(int keyframe) const {

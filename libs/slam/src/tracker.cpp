@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "keypoint_alignment.h"
+#include "rgbd_graphslam/core/free_memory.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
 #include "rgbd_graphslam/slam/matcher.h"
 
@@ -60,7 +61,7 @@ SE3 Tracker::lastPose() const {
 void Tracker::setLast(Frame frame, LocatedFrame located, int reference_keyframe, bool keep_motion) {
     motion_ = keep_motion && last_ ? located.T_cam_world * lastPose().inverse() : SE3();
     landmarks_before_ = last_ ? std::move(last_->landmarks) : std::vector<int>();
-    frame.patches = {};
+    freeMemory(frame.patches);
     last_ = Last{std::move(frame), std::move(located.landmarks), reference_keyframe,
                  located.T_cam_world * map_.T_cam_world(reference_keyframe).inverse()};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "rgbd_graphslam/core/free_memory.h"
 #include "rgbd_graphslam/viewer/keyframe_view.h"
 #include "rgbd_graphslam/viewer/scene_parts.h"
 
@@ -54,7 +55,7 @@ void RunScene::show(RunData run) {
     renderer_.geometry().setOctree({});
     renderer_.geometry().setFreeSpace({});
     renderer_.setPoints(chunked(pointVertices(run_.points)));
-    run_.points = {};  // the renderer has them
+    freeMemory(run_.points);  // the renderer has them
 }
 
 void RunScene::showPoses() {
@@ -129,7 +130,7 @@ void RunScene::add(RecordingLoader::News news) {
     if (news.camera) setCamera(*news.camera);
     for (KeyframePicture& picture : news.pictures) {
         renderer_.setKeyframePoints(picture.keyframe, picture.points);
-        picture.points = {};  // the renderer has them
+        freeMemory(picture.points);  // the renderer has them
         pictures_[picture.keyframe] = std::move(picture);
     }
 }
