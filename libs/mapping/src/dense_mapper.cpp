@@ -67,18 +67,30 @@ void DenseMapper::finish() {
 PointMap DenseMapper::points() const {
     PointMap all = points_.points();
     if (!options_.drop_points_in_free_space) return all;
-    const auto in_free_space = [&](const MapPoint& point) {
-        const auto log_odds = octree_volume_.logOdds(point.position.cast<double>().eval());
-        return log_odds && *log_odds < 0;
-    };
-    all.erase(std::remove_if(all.begin(), all.end(), in_free_space), all.end());
+    const auto is_gone = [&](const MapPoint& point) { return inFreeSpace(point.position); };
+    all.erase(std::remove_if(all.begin(), all.end(), is_gone), all.end());
     return all;
+}
+
+bool DenseMapper::inFreeSpace(const Eigen::Vector3f& point) const {
+    const auto log_odds = octree_volume_.logOdds(point.cast<double>().eval());
+    return log_odds && *log_odds < 0;
 }
 
 PlyModel DenseMapper::mesh() const {
     if (!mesh_volume_) throw Error("no mesh was asked for", "set mesh_voxel_m");
-    PlyModel mesh = withoutSmallParts(surfaceOf(mesh_volume_->blocks(), options_.mesh_voxel_m),
-                                      options_.mesh_min_part_m2);
+    PlyModel mesh = surfaceOf(mesh_volume_->blocks(), options_.mesh_voxel_m);
+    if (options_.drop_points_in_free_space) {
+        const auto is_gone = [&](const auto& triangle) {
+            return std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t vertex) {
+                return inFreeSpace(mesh.vertices[vertex]);
+            });
+        };
+        auto& triangles = mesh.triangles;
+        triangles.erase(std::remove_if(triangles.begin(), triangles.end(), is_gone),
+                        triangles.end());
+    }
+    mesh = withoutSmallParts(mesh, options_.mesh_min_part_m2);
     addNormals(mesh);
     return mesh;
 }

@@ -40,7 +40,7 @@ void fuse(Voxel& voxel, const cv::Vec3b& bgr) {
     const float share = 1.f / voxel.color_views;
     for (int i = 0; i < 3; ++i) {
         const float old = voxel.color[i], seen = DistanceVolume::color_steps * bgr[i];
-        voxel.color[i] = static_cast<std::uint16_t>(old + (seen - old) * share + 0.5f);
+        voxel.color[i] = static_cast<std::uint16_t>(cvRound(old + (seen - old) * share));
     }
 }
 
@@ -89,7 +89,7 @@ class ViewFuser {
     }
 
     cv::Vec3b colorAt(const Eigen::Vector2d& pixel) const {
-        return view_.color(static_cast<int>(pixel.y() + 0.5), static_cast<int>(pixel.x() + 0.5));
+        return view_.color(cvRound(pixel.y()), cvRound(pixel.x()));
     }
 
     /** Between four readings where all are there, else that of the nearest pixel; 0 without. */

@@ -23,7 +23,7 @@ void MapOptions::describe(OptionVisitor& v) {
     v.real("hit_share", hit_share, 0, 1, "",
            "Share of a leaf's pixels that must fall into it for a keyframe to find it occupied");
     v.flag("drop_points_in_free_space", drop_points_in_free_space,
-           "Leave out points where most views look through, e.g. of a person who walked by");
+           "Leave out points and triangles where most views look through, e.g. of who walked by");
     v.choice("upright", upright, {"gravity", "floor", "none"},
              "z = up by the accelerometer (floor when there is none), the floor, the first camera");
     v.integer("memory_limit_mb", memory_limit_mb, 64, 1000000, "MB",

@@ -74,7 +74,8 @@ mrpt::opengl::CSetOfTriangles::Ptr trianglesBelow(const PlyModel& mesh, float ce
         mrpt::opengl::TTriangle triangle;
         bool below = true;
         for (int i = 0; i < 3; ++i) {
-            const auto& [p, color] = vertices[corners[i]];
+            const Eigen::Vector3f& p = vertices[corners[i]].position;
+            const Rgba& color = vertices[corners[i]].color;
             below &= p.z() <= ceiling_m;
             const auto lit = [&](int channel) {
                 return static_cast<std::uint8_t>(color[channel] * color[3] / 255);
@@ -107,7 +108,7 @@ mrpt::math::TBoundingBox frameOf(const COpenGLScene& scene, const CPointCloudCol
     }
     const auto path = objectNamed<CSetOfLines>(scene, scene_names::keyframes);
     if (path && path->getLineCount() > 0) box = box.unionWith(path->getBoundingBox());
-    if (points.size() == 0 && !path) box = scene.getBoundingBox();
+    if (points.empty() && !path) box = scene.getBoundingBox();
     return box;
 }
 

@@ -325,6 +325,34 @@ TEST(MeshOfRoom, whoWalkedByIsLeftOut) {
     EXPECT_EQ(verticesOfPerson(12), 0);
 }
 
+/** Triangles where the octree says that most views look through. */
+int trianglesInFreeSpace(bool dropped) {
+    BoxRoom with_person;
+    with_person.furniture.push_back({{0.2, -0.3, 0}, {0.5, 0.0, 1.7}, {0, 255, 255}});
+    MapOptions options = withMesh();
+    options.drop_points_in_free_space = dropped;
+    DenseMapper mapper(options, smallCamera());
+    Noise noise;
+    const auto poses = walk(24);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+        const BoxRoom room = i < 3 ? with_person : BoxRoom();
+        mapper.insert(poses[i], render(room, smallCamera(), poses[i], 0, &noise));
+    }
+    const PlyModel mesh = mapper.mesh();
+    const auto is_free = [&](std::uint32_t vertex) {
+        const auto log_odds = mapper.volume().logOdds(mesh.vertices[vertex].cast<double>().eval());
+        return log_odds && *log_odds < 0;
+    };
+    int count = 0;
+    for (const auto& [a, b, c] : mesh.triangles) count += is_free(a) && is_free(b) && is_free(c);
+    return count;
+}
+
+TEST(MeshOfRoom, nothingStandsInFreeSpace) {
+    EXPECT_GT(trianglesInFreeSpace(false), 10);
+    EXPECT_EQ(trianglesInFreeSpace(true), 0);
+}
+
 template <class Function>
 std::string problemOf(Function function) {
     try {

@@ -40,7 +40,8 @@ class DenseMapper {
 
     /** Whether options ask for a mesh. */
     bool hasMesh() const { return mesh_volume_ != nullptr; }
-    /** Triangles with colours and normals. \throws Error without hasMesh() */
+    /** Triangles with colours and normals, without those in free space when so set. \throws Error
+     * without hasMesh() */
     PlyModel mesh() const;
 
     std::unique_ptr<octomap::OcTree> octree(LeafValues values = LeafValues::Exact) const;
@@ -55,6 +56,8 @@ class DenseMapper {
     std::size_t meshBytes() const { return mesh_volume_ ? mesh_volume_->bytes() : 0; }
 
   private:
+    /** Whether most views look through the place. */
+    bool inFreeSpace(const Eigen::Vector3f& point) const;
     /** \param growth factor on the memory until all is inserted */
     std::string coarserResolutions(double growth) const;
     const OccupancyVolume& gridVolume() const {
