@@ -74,8 +74,11 @@ void RunScene::showTruth() {
     std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> pairs;
     for (const TrueError& error : errors_) pairs.emplace_back(error.estimate, error.truth);
     renderer_.geometry().setLines(Part::Errors, pairLines(pairs, error_color));
-    renderer_.geometry().setLines(Part::TruePath,
-                                  pathLines(run_.truth, run_.unplaced_s, truth_color));
+    // The truth has poses at frames only: one without shows that nobody measured.
+    std::vector<double> frames_s = run_.unplaced_s;
+    for (const StampedPose& pose : run_.trajectory) frames_s.push_back(pose.stamp_s);
+    std::sort(frames_s.begin(), frames_s.end());
+    renderer_.geometry().setLines(Part::TruePath, pathLines(run_.truth, frames_s, truth_color));
 }
 
 void RunScene::update(const LiveRun& live) {

@@ -22,8 +22,9 @@ using Trajectory = std::vector<StampedPose>;
 std::optional<SE3> poseAt(const Trajectory& trajectory, double stamp_s,
                           double longest_gap_s = std::numeric_limits<double>::infinity());
 
-/** Whether one of the stamps lies between two moments. A path is not drawn across such a gap:
- * nobody saw how the camera went. \param stamps_s rising, of frames that have no pose */
+/** Whether one of the stamps lies between two moments, both of them left out. A path is not drawn
+ *  across a frame without a pose: nobody saw how the camera went.
+ *  \param stamps_s rising */
 bool anyBetween(const std::vector<double>& stamps_s, double from_s, double to_s);
 
 /** Reads `stamp tx ty tz qx qy qz qw` lines (seconds, metres, unit quaternion), the format of the
