@@ -59,6 +59,7 @@ void drawObstacles(Paper& paper, const PointMap& obstacles) {
 template <class Pose>
 std::vector<cv::Point> pixelsOf(const Paper& paper, const std::vector<Pose>& poses) {
     std::vector<cv::Point> pixels;
+    pixels.reserve(poses.size());
     for (const auto& p : poses) pixels.push_back(paper.at(p.x, p.y));
     return pixels;
 }

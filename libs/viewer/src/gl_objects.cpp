@@ -80,8 +80,10 @@ void VertexBuffer::attach() {
     glEnableVertexAttribArray(position_attribute);
     glVertexAttribPointer(position_attribute, 3, GL_FLOAT, GL_FALSE, sizeof(Vertex), nullptr);
     glEnableVertexAttribArray(color_attribute);
+    // OpenGL takes an offset as a pointer. NOLINTNEXTLINE(performance-no-int-to-ptr)
+    const auto* color_offset = reinterpret_cast<const void*>(offsetof(Vertex, color));
     glVertexAttribPointer(color_attribute, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(Vertex),
-                          reinterpret_cast<const void*>(offsetof(Vertex, color)));
+                          color_offset);
     glBindVertexArray(0);
 }
 

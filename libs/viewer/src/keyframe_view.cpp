@@ -12,10 +12,11 @@ namespace {
 constexpr double nearest_m = 0.3, farthest_point_m = 5;
 
 int stepFor(const cv::Size& size) {
+    const auto points = [](const cv::Size& grid) {
+        return static_cast<std::size_t>(grid.width + 1) * static_cast<std::size_t>(grid.height + 1);
+    };
     int step = 1;
-    while (static_cast<std::size_t>((size.width / step + 1) * (size.height / step + 1)) >
-           points_a_keyframe)
-        ++step;
+    while (points(size / step) > points_a_keyframe) ++step;
     return step;
 }
 

@@ -16,6 +16,7 @@ bool hasMoved(const SE3& a, const SE3& b) {
 
 std::vector<KeyframeEdge> edgesOf(const std::vector<std::pair<int, int>>& pairs) {
     std::vector<KeyframeEdge> edges;
+    edges.reserve(pairs.size());
     for (const auto& [from, to] : pairs) edges.push_back({from, to});
     return edges;
 }

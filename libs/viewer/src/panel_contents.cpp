@@ -46,6 +46,7 @@ long count(const LiveFrame& frame, FeatureState state) {
 
 std::vector<float> errorsCm(const std::vector<TrueError>& errors) {
     std::vector<float> errors_cm;
+    errors_cm.reserve(errors.size());
     for (const TrueError& error : errors) errors_cm.push_back(static_cast<float>(100 * error.m()));
     return errors_cm;
 }

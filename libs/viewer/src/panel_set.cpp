@@ -17,7 +17,8 @@ double covered(const nanogui::Widget& panel, int extent_px) {
 }  // namespace
 
 PanelSet::PanelSet(nanogui::Screen& window, ViewerSettings& settings,
-                   const std::vector<Shortcut>& shortcuts, std::function<void()> settings_changed)
+                   const std::vector<Shortcut>& shortcuts,
+                   const std::function<void()>& settings_changed)
     : window_(window),
       wanted_{settings.view_panel, settings.image_panel, settings.plot_panel, settings.time_panel},
       view_(new ViewPanel(&window, settings, settings_changed)),

@@ -14,7 +14,7 @@ class PanelSet {
   public:
     /** \param settings_changed after one of the panels' switches has changed a setting */
     PanelSet(nanogui::Screen& window, ViewerSettings& settings,
-             const std::vector<Shortcut>& shortcuts, std::function<void()> settings_changed);
+             const std::vector<Shortcut>& shortcuts, const std::function<void()>& settings_changed);
 
     /** To be called when the window or a panel has another size. */
     void place();
