@@ -52,6 +52,7 @@ class Benchmark {
     /** \return number of failures */
     std::size_t run(int jobs) {
         std::vector<std::future<void>> workers;
+        workers.reserve(jobs);
         for (int i = 0; i < jobs; ++i) {
             workers.push_back(std::async(std::launch::async, [this] { work(); }));
         }

@@ -171,7 +171,7 @@ std::vector<SequenceResult> resultsIn(const fs::path& folder) {
 
 std::vector<SequenceResult> writeReport(const std::string& folder,
                                         const std::vector<KnownSequence>& table) {
-    const auto results = resultsIn(folder);
+    auto results = resultsIn(folder);
     if (results.empty()) throw Error("'" + folder + "' holds no result", "run the benchmark first");
     writeTextAtomically(fs::path(folder) / "report.md", markdown(results, table, folder));
     writeTextAtomically(fs::path(folder) / "report.html", html(results, table, folder));

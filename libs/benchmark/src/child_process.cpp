@@ -38,6 +38,7 @@ class FileActions {
 
 pid_t start(const std::vector<std::string>& command, const std::string& log) {
     std::vector<char*> words;
+    words.reserve(command.size() + 1);
     for (const auto& word : command) words.push_back(const_cast<char*>(word.c_str()));
     words.push_back(nullptr);
     pid_t child = 0;

@@ -85,6 +85,7 @@ std::vector<FoundSequence> findSequences(const std::vector<std::string>& roots,
                     "give folders that hold RGB-D sequences, their archives or rawlogs");
     }
     std::vector<FoundSequence> list;
+    list.reserve(all.size());
     for (const auto& [name, source] : all) list.push_back({name, source});
     return list;
 }

@@ -18,6 +18,7 @@ constexpr double fewest_points = 15000, fewest_sharp_points = 50000, most_points
 float spacingOf(const std::vector<PointChunk>& chunks) {
     if (chunks.empty()) return widest_spacing_m;
     std::vector<double> spacings;
+    spacings.reserve(chunks.size());
     for (const PointChunk& chunk : chunks) {
         spacings.push_back(chunk.radius_m * std::sqrt(M_PI / static_cast<double>(chunk.count)));
     }
