@@ -18,7 +18,8 @@ using Pair = std::pair<std::size_t, std::size_t>;
 
 /** Uniform in [0, bound) by rejection; std::uniform_int_distribution differs between libraries. */
 std::size_t below(std::size_t bound, std::mt19937_64& random) {
-    const std::uint64_t usable = random.max() - random.max() % bound;
+    constexpr std::uint64_t largest = std::mt19937_64::max();
+    const std::uint64_t usable = largest - largest % bound;
     std::uint64_t drawn = random();
     while (drawn >= usable) drawn = random();
     return drawn % bound;

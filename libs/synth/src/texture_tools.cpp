@@ -57,6 +57,7 @@ void drawShape(cv::Mat& picture, const cv::Rect& box, Random& random) {
             break;
         default: {
             std::vector<cv::Point> corners;
+            corners.reserve(5);
             for (int i = 0; i < 3 + random.below(3); ++i)
                 corners.push_back(at + cv::Point(random.below(2 * reach) - reach,
                                                  random.below(2 * reach) - reach));
