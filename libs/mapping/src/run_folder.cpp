@@ -38,8 +38,9 @@ std::string findRawlog(const nlohmann::json& summary, const fs::path& folder) {
 /** As it was given to rgbd-slam; nothing when the run was not localised. */
 std::optional<std::string> mapFolderOf(const nlohmann::json& summary) {
     const auto map = summary.value("map", nlohmann::json());
-    if (!map.is_object() || map.value("use", "") != "localise") return std::nullopt;
-    return map.value("folder", "");
+    if (!map.is_object() || map.value("use", nlohmann::json()) != "localise") return std::nullopt;
+    const auto folder = map.value("folder", nlohmann::json());
+    return folder.is_string() ? folder.get<std::string>() : std::string();
 }
 
 std::vector<MapLoopEdge> loopsOf(const nlohmann::json& summary) {

@@ -189,7 +189,8 @@ void LocalMapper::cullKeyframes(int id) {
     }
 }
 
-/** Beside a held map only the latest keyframes are kept, so that memory stays flat. */
+/** Beside a held map only the latest keyframes are kept, so that memory stays flat. The one that
+ *  goes must still move with its own part of the map. */
 void LocalMapper::forgetOldest(int newest) {
     std::vector<int> living;
     for (int id = map_.heldCount(); id <= newest; ++id) {
@@ -199,7 +200,11 @@ void LocalMapper::forgetOldest(int newest) {
     const auto seen_with = map_.covisible(living[0]);
     const auto held = std::find_if(seen_with.begin(), seen_with.end(),
                                    [&](const Covisibility& c) { return map_.held(c.keyframe); });
-    map_.cull(living[0], held == seen_with.end() ? living[1] : held->keyframe);
+    const int part = map_.keyframe(living[0]).part;
+    const auto next = std::find_if(living.begin() + 1, living.end(),
+                                   [&](int id) { return map_.keyframe(id).part == part; });
+    const int younger = next == living.end() ? living[1] : *next;
+    map_.cull(living[0], held == seen_with.end() ? younger : held->keyframe);
 }
 
 /** The newest keyframe and its best neighbours move; others that see the same points hold them. */

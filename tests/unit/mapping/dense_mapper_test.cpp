@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "../../support/problem_of.h"
 #include "box_room.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/mapping/view_coverage.h"
@@ -298,16 +299,6 @@ TEST(DenseMapper, flyingPixelsBetweenForegroundAndBackgroundAreDropped) {
     EXPECT_EQ(clean(120, 160), 0);
     EXPECT_NEAR(clean(120, 100), 1, 1e-6);
     EXPECT_NEAR(clean(120, 200), 3, 1e-6);
-}
-
-template <class Function>
-std::string problemOf(Function function) {
-    try {
-        function();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "";
 }
 
 TEST(DenseMapper, nothingIsNotANumber) {

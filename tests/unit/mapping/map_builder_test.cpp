@@ -21,6 +21,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "../../support/problem_of.h"
 #include "box_room.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
@@ -102,16 +103,6 @@ class MapBuilder : public testing::Test {
         fs::path(testing::TempDir()) / ("rgbd-map-builder-" + std::to_string(getpid()));
     MapInputs inputs_;
 };
-
-template <class Function>
-std::string problemOf(Function function) {
-    try {
-        function();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "";
-}
 
 double tiltDegrees(const SE3& T_up_world) {
     const Eigen::Vector3d up = T_up_world.R * T_world_room.R.col(2);

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "../../support/problem_of.h"
 #include "box_room.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/evaluation/ply.h"
@@ -44,16 +45,6 @@ class MapFiles : public testing::Test {
         fs::path(testing::TempDir()) / ("rgbd-map-files-" + std::to_string(getpid()));
     DenseMapper mapper_;
 };
-
-template <class Function>
-std::string problemOf(Function function) {
-    try {
-        function();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "";
-}
 
 /** Leaf by leaf at the finest level. */
 template <class Tree>

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 
+#include "../../support/problem_of.h"
 #include "../../support/random_inputs.h"
 #include "box_room.h"
 #include "rgbd_graphslam/core/error.h"
@@ -351,16 +352,6 @@ int trianglesInFreeSpace(bool dropped) {
 TEST(MeshOfRoom, nothingStandsInFreeSpace) {
     EXPECT_GT(trianglesInFreeSpace(false), 10);
     EXPECT_EQ(trianglesInFreeSpace(true), 0);
-}
-
-template <class Function>
-std::string problemOf(Function function) {
-    try {
-        function();
-    } catch (const Error& e) {
-        return e.what();
-    }
-    return "";
 }
 
 TEST(MeshOfRoom, tooFineAMeshIsRefusedWithTheResolutionThatFits) {

@@ -89,6 +89,10 @@ TEST_F(RunFolder, aLocalisedRunComesWithItsMap) {
     EXPECT_THROW(readRunFolder(later.string(), ""), Error);  // of which no map can be made
     write("later/summary.json", R"({"map": {"folder": "/no/such/map", "use": "localise"}})");
     EXPECT_THROW(loadRun(later.string()), Error);
+    write("later/summary.json", R"({"map": {"folder": 7, "use": "localise"}})");
+    EXPECT_THROW(loadRun(later.string()), Error);
+    write("later/summary.json", R"({"map": {"folder": "..", "use": 7}})");
+    EXPECT_THROW(loadRun(later.string()), Error);  // then it should have keyframes
 }
 
 TEST_F(RunFolder, damagedMapsAreNamedAndTheRestIsShown) {
