@@ -35,9 +35,10 @@ std::string saidToATerminal(const std::function<void()>& say) {
     say();
     dup2(saved, STDERR_FILENO);
     close(saved);
-    std::string text(4096, '\0');
-    text.resize(std::max<ssize_t>(0, read(master, text.data(), text.size())));
-    close(slave);
+    close(slave);  // the terminal hands on piece by piece; only its end says that nothing follows
+    std::string text;
+    char piece[256];
+    for (ssize_t n; (n = read(master, piece, sizeof piece)) > 0;) text.append(piece, n);
     close(master);
     return text;
 }
