@@ -4,14 +4,10 @@
 #include <gtest/gtest.h>
 #include <sys/mount.h>
 
-#include <algorithm>
 #include <chrono>
-#include <map>
 #include <random>
 
-#include "../support/run_program.h"
-#include "../support/textured_room.h"
-#include "rgbd_graphslam/dataset/rawlog_writer.h"
+#include "killed_runs.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -19,52 +15,7 @@ namespace fs = std::filesystem;
 using ::testing::HasSubstr;
 
 constexpr int kills = 50;
-constexpr int finished_frames = 8;
-
-std::string inQuotes(const std::string& text) {
-    return "'" + text + "'";
-}
-
-void writeFilm(const std::string& rawlog, int frames) {
-    writeRawlog(rawlog, RawlogStorage::Embedded, [&](RawlogWriter& writer) {
-        for (const auto& frame : filmRoundTrip(frames, 0.03)) writer.write(*frame);
-    });
-}
-
-using Files = std::map<std::string, std::string>;
-
-/** Those that a run writes for good: no temporary ones, no socket. */
-Files filesIn(const std::string& folder) {
-    Files files;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string name = entry.path().filename().string();
-        if (entry.is_regular_file() && name.rfind(".tmp-", 0) != 0) {
-            files[name] = readText(entry.path().string());
-        }
-    }
-    return files;
-}
-
-std::vector<std::string> temporariesIn(const std::string& folder) {
-    std::vector<std::string> names;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string name = entry.path().filename().string();
-        if (name.rfind(".tmp-", 0) == 0) names.push_back(name);
-    }
-    return names;
-}
-
-/** Files that tell of times differ from run to run; what they end with says that they are whole. */
-bool isWholeOfItsKind(const std::string& name, const std::string& bytes) {
-    const auto endsWith = [&](const std::string& end) {
-        return bytes.size() >= end.size() &&
-               bytes.compare(bytes.size() - end.size(), end.size(), end) == 0;
-    };
-    return (name == "summary.json" && endsWith("\n}\n")) ||
-           (name == "report.html" && endsWith("</html>\n")) ||
-           (name == "frame_times.csv" && endsWith("\n") &&
-            std::count(bytes.begin(), bytes.end(), '\n') == 1 + finished_frames);
-}
+constexpr double turn_rad = 0.03;
 
 /** A tmpfs, which only root can make. */
 class SmallDisk {
@@ -94,8 +45,8 @@ class SmallDisk {
 class FaultOutputs : public ::testing::Test {
   protected:
     FaultOutputs() {
-        writeFilm(folder_ / "earlier.rawlog", 4);
-        writeFilm(folder_ / "a.rawlog", finished_frames);
+        writeFilm(folder_ / "earlier.rawlog", 0, 4, turn_rad);
+        writeFilm(folder_ / "a.rawlog", 0, 8, turn_rad);
         earlier_ = run("earlier.rawlog", "out");
         const auto start = std::chrono::steady_clock::now();
         finished_ = run("a.rawlog", "finished");
@@ -114,18 +65,9 @@ class FaultOutputs : public ::testing::Test {
     }
     /** \return whether all of the finished run is there */
     bool expectOldOrNew(const std::string& out) const {
-        const Files files = filesIn(folder_ / out);
-        std::size_t arrived = 0;
-        for (const auto& [name, bytes] : files) {
-            const auto before = earlier_.find(name), after = finished_.find(name);
-            const bool is_new = after != finished_.end() && bytes == after->second;
-            const bool is_old = before != earlier_.end() && bytes == before->second;
-            const bool is_other = !is_old && !is_new && isWholeOfItsKind(name, bytes);
-            EXPECT_TRUE(is_new || is_old || is_other) << name;
-            arrived += is_new || is_other;
-        }
-        for (const auto& file : earlier_) EXPECT_EQ(files.count(file.first), 1u) << file.first;
-        return arrived == finished_.size();
+        const LeftBehind left(filesIn(folder_ / out), earlier_, finished_);
+        left.expectOldOrNew();
+        return left.isFinished();
     }
     void restoreEarlier() const {
         fs::remove_all(folder_ / "out");
@@ -136,14 +78,6 @@ class FaultOutputs : public ::testing::Test {
         EXPECT_THAT(result.err, HasSubstr("rgbd-slam: error: "));
         EXPECT_THAT(result.err, HasSubstr(reason));
     }
-    void killAfter(double delay_s) const {
-        const std::string command = inQuotes(RGBD_BINARY_DIR "/bin/rgbd-slam") + " " +
-                                    arguments("a.rawlog", "out") + " >/dev/null 2>&1 & sleep " +
-                                    std::to_string(delay_s) +
-                                    "; kill -KILL $! 2>/dev/null; wait $!";
-        ASSERT_NE(std::system(command.c_str()), -1);
-    }
-
     TestFolder folder_;
     Files earlier_, finished_;
     double run_s_ = 0;
@@ -153,12 +87,12 @@ TEST_F(FaultOutputs, killedAtAnyMoment) {
     std::mt19937 random(1);
     int unfinished = 0;
     for (int i = 0; i < kills; ++i) {
-        killAfter(run_s_ * (random() % 1000) / 1000);
+        killAfter(run_s_ * (random() % 1000) / 1000, "rgbd-slam", arguments("a.rawlog", "out"));
         unfinished += !expectOldOrNew("out");
         restoreEarlier();
     }
     EXPECT_GT(unfinished, kills / 5) << "hardly a run was killed before its end";
-    killAfter(0.9 * run_s_);
+    killAfter(0.9 * run_s_, "rgbd-slam", arguments("a.rawlog", "out"));
     run("a.rawlog", "out");
     EXPECT_TRUE(expectOldOrNew("out"));
     EXPECT_TRUE(temporariesIn(folder_ / "out").empty()) << "left over from a run that was killed";

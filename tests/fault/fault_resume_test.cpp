@@ -6,14 +6,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <map>
 #include <random>
-#include <set>
 
-#include "../support/run_program.h"
-#include "../support/textured_room.h"
+#include "killed_runs.h"
 #include "rgbd_graphslam/core/byte_stream.h"
-#include "rgbd_graphslam/dataset/rawlog_writer.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -27,21 +23,10 @@ constexpr double turn_rad = 0.05;
 
 const std::string program = "'" RGBD_BINARY_DIR "/bin/rgbd-slam' ";
 
-std::string inQuotes(const std::string& text) {
-    return "'" + text + "'";
-}
-
-using Files = std::map<std::string, std::string>;
-
 /** Without those that tell of times. */
 Files resultsIn(const std::string& folder) {
-    const std::set<std::string> of_times = {"summary.json", "report.html", "frame_times.csv"};
-    Files files;
-    for (const auto& entry : fs::directory_iterator(folder)) {
-        const std::string name = entry.path().filename().string();
-        if (of_times.count(name) || !entry.is_regular_file()) continue;
-        files[name] = readText(entry.path().string());
-    }
+    Files files = filesIn(folder);
+    for (const std::string& name : files_of_times) files.erase(name);
     return files;
 }
 
@@ -59,22 +44,11 @@ void expectTheSame(const Files& files, const Files& expected) {
     }
 }
 
-void shell(const std::string& command) {
-    ASSERT_NE(std::system(command.c_str()), -1);
-}
-
-void writeFilm(const std::string& rawlog, int from, int to) {
-    const auto film = filmRoundTrip(to, turn_rad);
-    writeRawlog(rawlog, RawlogStorage::Embedded, [&](RawlogWriter& writer) {
-        for (int i = from; i < to; ++i) writer.write(*film[i]);
-    });
-}
-
 class FaultResume : public ::testing::Test {
   protected:
     static void SetUpTestSuite() {
         folder_ = new TestFolder;
-        writeFilm(*folder_ / "a.rawlog", 0, frames);
+        writeFilm(*folder_ / "a.rawlog", 0, frames, turn_rad);
         const auto start = std::chrono::steady_clock::now();
         const ProgramResult result = runProgram("rgbd-slam", arguments("finished"));
         ASSERT_EQ(result.exit_code, 0) << result.err;
@@ -97,10 +71,6 @@ class FaultResume : public ::testing::Test {
     }
     static std::string resumeArguments() {
         return "--quiet --resume " + inQuotes(*folder_ / "out");
-    }
-    static void killAfter(double delay_s, const std::string& arguments) {
-        shell(program + arguments + " >/dev/null 2>&1 & sleep " + std::to_string(delay_s) +
-              "; kill -KILL $! 2>/dev/null; wait $!");
     }
     /** As soon as there is one. */
     static void signalAtCheckpoint(const std::string& signal, const std::string& arguments) {
@@ -137,7 +107,7 @@ TEST_F(FaultResume, killedAtAnyMoment) {
     std::mt19937 random(1);
     int resumed = 0;
     for (int i = 0; i < kills; ++i) {
-        killAfter(run_s_ * (random() % 1000) / 1000, arguments("out"));
+        killAfter(run_s_ * (random() % 1000) / 1000, "rgbd-slam", arguments("out"));
         if (fs::exists(checkpoint())) {
             ++resumed;
             expectFinished(resume());
@@ -151,7 +121,7 @@ TEST_F(FaultResume, killedAgainAndAgain) {
     signalAtCheckpoint("KILL", arguments("out"));
     std::mt19937 random(2);
     for (int i = 0; i < 5 && fs::exists(checkpoint()); ++i) {
-        killAfter(run_s_ * (random() % 1000) / 1000, resumeArguments());
+        killAfter(run_s_ * (random() % 1000) / 1000, "rgbd-slam", resumeArguments());
     }
     if (fs::exists(checkpoint())) expectFinished(resume());
     expectTheSame(resultsIn(*folder_ / "out"), *finished_);
@@ -176,8 +146,8 @@ TEST_F(FaultResume, anyNumberOfThreadsGoesOn) {
 }
 
 TEST_F(FaultResume, anExtendedMapGoesOn) {
-    writeFilm(*folder_ / "first.rawlog", 0, 40);
-    writeFilm(*folder_ / "second.rawlog", 30, 90);
+    writeFilm(*folder_ / "first.rawlog", 0, 40, turn_rad);
+    writeFilm(*folder_ / "second.rawlog", 30, 90, turn_rad);
     const std::string extend = " --extend --map " + inQuotes(*folder_ / "first");
     ASSERT_EQ(runProgram("rgbd-slam", arguments("first", "first.rawlog")).exit_code, 0);
     ASSERT_EQ(runProgram("rgbd-slam", arguments("both", "second.rawlog") + extend).exit_code, 0);
@@ -199,7 +169,7 @@ TEST_F(FaultResume, refusesAnotherRawlogAndOtherSettings) {
     const std::string rawlog = *folder_ / "a.rawlog", kept = *folder_ / "kept.rawlog";
     fs::rename(rawlog, kept);
     expectRefused(resume(), "cannot read the rawlog");
-    writeFilm(rawlog, 0, 10);
+    writeFilm(rawlog, 0, 10, turn_rad);
     expectRefused(resume(), "is not the one that the checkpoint was written for");
     fs::rename(kept, rawlog);
     for (const char* more :

@@ -1,5 +1,6 @@
 #include "run_output.h"
 
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
 #include "output_texts.h"
@@ -12,7 +13,11 @@
 #include "rgbd_graphslam/report/run_report.h"
 
 namespace rgbd_graphslam {
+namespace fs = std::filesystem;
 namespace {
+
+constexpr const char* before_loops_name = "keyframes_before_loops.txt";
+constexpr const char* truth_name = "truth.txt";
 
 /** Keyframes chained by the relative poses that tracking measured between them, before any loop. */
 Trajectory chained(Trajectory keyframes, const std::vector<SE3>& T_previous_keyframe) {
@@ -58,10 +63,18 @@ void writeAllPoses(const RunState& run, const MapInputs& upright, const SE3& T_u
     writePoses(run, "trajectory.txt", upright.trajectory);
     writePoses(run, "keyframes.txt", upright.keyframes);
     if (!upright.keyframes_before_loops.empty()) {
-        writePoses(run, "keyframes_before_loops.txt", upright.keyframes_before_loops);
+        writePoses(run, before_loops_name, upright.keyframes_before_loops);
     }
-    if (!run.truth.empty()) writePoses(run, "truth.txt", moved(run.truth, T_up_world));
+    if (!run.truth.empty()) writePoses(run, truth_name, moved(run.truth, T_up_world));
     run.session.writeGraph(pathOf(run, "graph.graph"), T_up_world);
+}
+
+/** Poses that not every run has: those of an earlier run into this folder would be taken for this
+ *  one's. */
+void removePosesOfEarlierRun(const RunState& run) {
+    std::error_code ignored;
+    if (run.report.loops.empty()) fs::remove(pathOf(run, before_loops_name), ignored);
+    if (run.truth.empty()) fs::remove(pathOf(run, truth_name), ignored);
 }
 
 /** \throws Error saying why no frame became a keyframe */
@@ -119,6 +132,7 @@ void writeRun(RunState& run) {
     run.report.peak_memory_mb = peakMemoryMb();
     run.report.warnings = run.allWarnings();
     writeTextAtomically(pathOf(run, "summary.json"), summaryJson(job, run.report));
+    if (!job.localises()) removePosesOfEarlierRun(run);
     const bool has_keyframes = run.report.keyframes > static_cast<std::size_t>(run.first_keyframe);
     if (!job.localises() && has_keyframes) writeReport(run);
 }

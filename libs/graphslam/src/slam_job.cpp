@@ -1,8 +1,11 @@
 #include "rgbd_graphslam/graphslam/slam_job.h"
 
+#include <filesystem>
+
 #include "checkpoint.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/graphslam/sparse_map_file.h"
 #include "rgbd_graphslam/live/viewer_launch.h"
 #include "run_checkpoint.h"
@@ -13,6 +16,16 @@
 
 namespace rgbd_graphslam {
 namespace {
+
+/** \throws Error when the way of a localised run would replace that of the run that made the map */
+void checkFolders(const SlamJob& job) {
+    std::error_code none_yet;
+    if (!job.localises()) return;
+    if (!std::filesystem::equivalent(job.map_folder, job.out_folder, none_yet)) return;
+    throw Error("'" + job.out_folder +
+                    "' holds the map to be localised in, whose files this run would replace",
+                "choose another output folder");
+}
 
 std::optional<SparseMap> readStart(const SlamJob& job) {
     if (job.map_folder.empty() || job.resume) return std::nullopt;
@@ -28,6 +41,7 @@ SlamJob resumedJob(const std::string& out_folder) {
 }
 
 JobReport runSlamJob(const SlamJob& job) {
+    checkFolders(job);
     auto start = readStart(job);
     makeWritableFolder(job.out_folder);
     RunState run(job, std::move(start));

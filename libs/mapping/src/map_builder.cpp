@@ -80,8 +80,8 @@ std::size_t addSessions(Maps& maps, const MapInputs& inputs, const MapOptions& o
            addSession(maps, inputs, options, inputs.rawlog, {begin, inputs.keyframes.end()});
 }
 
-/** A mesh of earlier maps would be of other poses: without a new one it goes, too.
- *  \return triangles */
+/** A mesh of earlier maps would be of other poses: without a new one it goes, too. Last, so that
+ * what ends early loses nothing. \return triangles */
 std::size_t writeMesh(const DenseMapper& dense, const std::string& path) {
     if (!dense.hasMesh()) {
         std::error_code ignored;
@@ -103,7 +103,6 @@ MapSummary writeFiles(const MapInputs& inputs, const Maps& maps, const std::stri
     savePly(path("points.ply"), points);
     savePcd(path("points.pcd"), points);
     saveMetricMap(path("points.metricmap"), points);
-    summary.triangles = writeMesh(*maps.dense, path("mesh.ply"));
     const auto tree = maps.dense->octree(LeafValues::MaximumLikelihood);
     saveBinaryOcTree(path("octree.bt"), *tree);
     saveColorOcTree(path("octree.ot"), *maps.dense->colorOctree());
@@ -116,6 +115,7 @@ MapSummary writeFiles(const MapInputs& inputs, const Maps& maps, const std::stri
     const cv::Mat picture = planView(inputs, points);
     writeAtomically(path("map.png"),
                     [&](const std::string& temporary) { return cv::imwrite(temporary, picture); });
+    summary.triangles = writeMesh(*maps.dense, path("mesh.ply"));
     summary.points = points.size();
     summary.octree_leaves = tree->getNumLeafNodes();
     summary.grid_width = static_cast<int>(grid.getSizeX());

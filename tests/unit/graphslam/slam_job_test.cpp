@@ -139,6 +139,19 @@ TEST_F(JobOnARawlog, truthIsWrittenWhereThePathLies) {
     }
 }
 
+TEST_F(JobOnARawlog, posesOfAnEarlierRunGoWhereThisOneHasNone) {
+    runSlamJob(job_);
+    ASSERT_TRUE(fs::exists(job_.out_folder + "/truth.txt"));
+    folder_.write("out/keyframes_before_loops.txt", output("keyframes.txt"));
+    const auto film = filmRoundTrip(frames, turn_rad);
+    writeRawlog(job_.rawlog, RawlogStorage::Embedded, [&](RawlogWriter& writer) {
+        for (const auto& frame : film) writer.write(*frame);
+    });
+    runSlamJob(job_);
+    EXPECT_FALSE(fs::exists(job_.out_folder + "/truth.txt"));
+    EXPECT_FALSE(fs::exists(job_.out_folder + "/keyframes_before_loops.txt"));
+}
+
 TEST_F(JobOnARawlog, reportTellsOfTheRunAndItsWarnings) {
     auto film = filmRoundTrip(frames, turn_rad);
     film[10]->timestamp = film[9]->timestamp;
@@ -297,6 +310,16 @@ TEST_F(JobOnARawlog, laterRunIsLocalisedInTheMap) {
     const auto summary = nlohmann::json::parse(output("summary.json"));
     EXPECT_EQ(summary["map"]["use"], "localise");
     EXPECT_EQ(summary["false_loops"], 0);
+}
+
+TEST_F(JobOnARawlog, aMapIsNotLocalisedInOverItself) {
+    runSlamJob(job_);
+    const std::string trajectory = output("trajectory.txt");
+    job_.map_folder = job_.out_folder + "/../out";
+    EXPECT_THROW(runSlamJob(job_), Error);
+    EXPECT_EQ(output("trajectory.txt"), trajectory);
+    job_.map_use = MapUse::Extend;
+    EXPECT_EQ(runSlamJob(job_).frames, static_cast<std::size_t>(frames)) << "grows in its place";
 }
 
 TEST_F(JobOnARawlog, laterRunExtendsTheMap) {

@@ -90,8 +90,8 @@ struct JobReport {
  * byte-identical for any number of threads.
  *
  *  From an earlier run's map: all poses are in that run's world. Localising writes the trajectory
- *  only; extending writes everything, of both runs, but trajectory.txt and frames.csv have the
- *  frames of this rawlog.
+ *  only, never into the map's own folder; extending writes everything, of both runs, but
+ *  trajectory.txt and frames.csv have the frames of this rawlog.
  *
  *  After every so many keyframes a checkpoint is written into the folder, and removed at the end. A
  *  run that goes on from it reads over what was tracked and ends with the same trajectory, graph,
