@@ -153,6 +153,14 @@ void SlamMap::addObservation(int landmark, int keyframe, int keypoint) {
     refreshAppearance(landmark);
 }
 
+void SlamMap::addObservations(const std::vector<int>& landmarks, int keyframe) {
+    for (std::size_t keypoint = 0; keypoint < landmarks.size(); ++keypoint) {
+        const int landmark = landmarks[keypoint];
+        if (landmark == no_landmark || !landmarks_[landmark].alive) continue;
+        addObservation(landmark, keyframe, static_cast<int>(keypoint));
+    }
+}
+
 void SlamMap::refreshAppearance(int landmark) {
     Landmark& refreshed = landmarks_[landmark];
     const Observation& latest = refreshed.observations.back();

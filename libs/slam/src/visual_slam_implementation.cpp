@@ -180,10 +180,7 @@ int VisualSlam::Implementation::insertKeyframe(const Frame& frame, const Located
     int id = 0;
     times.measure("map", [&] {
         id = map.addKeyframe(frame, located.T_cam_world, part, link);
-        for (std::size_t i = 0; i < located.landmarks.size(); ++i) {
-            if (located.landmarks[i] == no_landmark) continue;
-            map.addObservation(located.landmarks[i], id, static_cast<int>(i));
-        }
+        map.addObservations(located.landmarks, id);
         mapper.insert(id);
     });
     decision.reset(map.keyframe(id));

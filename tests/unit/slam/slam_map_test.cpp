@@ -38,6 +38,19 @@ void expectConsistent(const SlamMap& map) {
     }
 }
 
+TEST(SlamMap, aKeyframeSeesNoLandmarkThatDiedSinceItWasTracked) {
+    SlamMap map(1.2, 8);
+    map.addKeyframe(frameOf(2), SE3());
+    const int lives = map.addLandmark({0, 0, 1}, 0, 0);
+    const int dies = map.addLandmark({0, 0, 2}, 0, 1);
+    const std::vector<int> tracked = {dies, no_landmark, lives};
+    map.removeLandmark(dies);
+    map.addKeyframe(frameOf(3), SE3());
+    map.addObservations(tracked, 1);
+    EXPECT_EQ(map.keyframe(1).landmarks, (std::vector<int>{no_landmark, no_landmark, lives}));
+    expectConsistent(map);
+}
+
 TEST(SlamMap, staysConsistentUnderRandomChanges) {
     std::mt19937 random(17);
     SlamMap map(1.2, 8);

@@ -101,6 +101,9 @@ class SlamMap {
     int addLandmark(const Eigen::Vector3d& position, int keyframe, int keypoint);
     /** The keypoint must be free and the landmark not yet seen by the keyframe. */
     void addObservation(int landmark, int keyframe, int keypoint);
+    /** What a frame was found to see becomes the keyframe's; landmarks that have died since are left
+     *  out. \param landmarks one entry a keypoint, no_landmark where none was found */
+    void addObservations(const std::vector<int>& landmarks, int keyframe);
     /** A landmark that loses its last observation dies. */
     void removeObservation(int landmark, int keyframe);
     void removeLandmark(int landmark);
