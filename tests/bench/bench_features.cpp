@@ -9,6 +9,7 @@
 
 #include "../../libs/features/src/fast_detector.h"
 #include "../../libs/features/src/patch_orientation.h"
+#include "../../libs/features/src/smoothing.h"
 #include "rgbd_graphslam/features/frame_builder.h"
 
 namespace rgbd_graphslam {
@@ -134,11 +135,9 @@ BENCHMARK(openCvOrb)->ArgName("count")->Arg(500)->Arg(1000)->Arg(2000)->Unit(
 
 void stageShrinkAndSmooth(benchmark::State& state) {
     const FeatureOptions options;
-    cv::Mat smooth;
+    cv::Mat smoothed(texturedFrame().grey.size(), CV_8UC1);
     for (auto _ : state) {
-        for (const cv::Mat& level : sharpPyramid(options)) {
-            cv::GaussianBlur(level, smooth, cv::Size(7, 7), 2, 2, cv::BORDER_REFLECT_101);
-        }
+        for (const cv::Mat& level : sharpPyramid(options)) smooth(level, smoothed);
     }
 }
 BENCHMARK(stageShrinkAndSmooth)->Unit(benchmark::kMillisecond);

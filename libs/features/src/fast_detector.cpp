@@ -35,21 +35,24 @@ RGBD_INLINE bool anySet(const Bytes& bytes) {
 }
 
 /** Greatest over all arcs of the least difference within the arc. `difference` holds one entry a
- *  pixel of the circle, clamped at 0 from below. Halving the problem shares most of the minima. */
+ *  pixel of the circle, clamped at 0 from below. Two arcs of nine share eight pixels, and halving
+ *  those shares most of their minima. */
 RGBD_INLINE void bestArc(const Bytes (&difference)[circle_size], Bytes& best) {
-    Bytes two[circle_size], four[circle_size];
-    for (int i = 0; i < circle_size; ++i) {
-        two[i] = difference[i];
-        keepLess(two[i], difference[(i + 1) % circle_size]);
+    constexpr int eights = circle_size / 2;
+    Bytes two[eights], four[eights];
+    for (int i = 0; i < eights; ++i) {
+        two[i] = difference[2 * i + 1];
+        keepLess(two[i], difference[(2 * i + 2) % circle_size]);
     }
-    for (int i = 0; i < circle_size; ++i) {
+    for (int i = 0; i < eights; ++i) {
         four[i] = two[i];
-        keepLess(four[i], two[(i + 2) % circle_size]);
+        keepLess(four[i], two[(i + 1) % eights]);
     }
-    for (int i = 0; i < circle_size; ++i) {
-        Bytes nine = four[i];
-        keepLess(nine, four[(i + 4) % circle_size]);
-        keepLess(nine, difference[(i + arc_length - 1) % circle_size]);
+    for (int i = 0; i < eights; ++i) {
+        Bytes nine = difference[2 * i];
+        keepGreater(nine, difference[(2 * i + arc_length) % circle_size]);
+        keepLess(nine, four[i]);
+        keepLess(nine, four[(i + 2) % eights]);
         keepGreater(best, nine);
     }
 }
@@ -120,12 +123,11 @@ void scoreRow(const std::uint8_t* row, const std::array<int, circle_size>& offse
     }
 }
 
-/** Sets the lanes whose score beats all eight neighbours; ties go to the first in reading order.
- */
-RGBD_INLINE void peaksOf(const std::uint8_t* above, const std::uint8_t* row,
+/** Sets the lanes whose score `s` beats all eight neighbours; ties go to the first in reading
+ *  order. */
+RGBD_INLINE void peaksOf(const Bytes& s, const std::uint8_t* above, const std::uint8_t* row,
                          const std::uint8_t* under, Bytes& peaks) {
-    Bytes s, earlier, later, n;
-    load(row, s);
+    Bytes earlier, later, n;
     load(above - 1, earlier);
     load(above, n);
     keepGreater(earlier, n);
@@ -148,8 +150,10 @@ RGBD_VECTOR_CLONES
 void collectPeaks(const std::uint8_t* above, const std::uint8_t* row, const std::uint8_t* under,
                   int x_begin, int x_end, int y, std::vector<FastCorner>& corners) {
     for (int x = x_begin; x < x_end; x += lanes) {
-        Bytes peaks;
-        peaksOf(above + x, row + x, under + x, peaks);
+        Bytes scores, peaks;
+        load(row + x, scores);
+        if (!anySet(scores)) continue;
+        peaksOf(scores, above + x, row + x, under + x, peaks);
         for (int word = 0; word < lanes / 8; ++word) {
             std::uint64_t set = reinterpret_cast<const Words&>(peaks)[word];
             while (set) {

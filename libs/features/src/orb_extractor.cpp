@@ -8,11 +8,12 @@
 #include "fast_detector.h"
 #include "orb_pattern.h"
 #include "patch_orientation.h"
+#include "smoothing.h"
 
 namespace rgbd_graphslam {
 namespace {
 
-constexpr int border_px = orb_patch_radius + 2;
+constexpr int border_px = orb_patch_radius + smoothing_radius;
 constexpr float pi = 3.14159265f;
 
 /** A pyramid level and its smoothed copy. All levels have the row step of the first, so that one
@@ -53,8 +54,7 @@ void buildPyramid(const cv::Mat& grey, const std::vector<float>& scale, Scratch&
         } else {
             cv::resize(scratch.levels[l - 1].sharp, level.sharp, size, 0, 0, cv::INTER_LINEAR);
         }
-        // reads 3 px beyond the level, where old frames are; no descriptor reaches what comes of it
-        cv::GaussianBlur(level.sharp, level.smooth, cv::Size(7, 7), 2, 2, cv::BORDER_REFLECT_101);
+        smooth(level.sharp, level.smooth);
     }
 }
 
@@ -71,10 +71,10 @@ void updateOffsets(Scratch& scratch) {
 }
 
 /** Strongest first; the place decides between equals. */
-bool stronger(const FastCorner& a, const FastCorner& b) {
+constexpr auto stronger = [](const FastCorner& a, const FastCorner& b) {
     if (a.score != b.score) return a.score > b.score;
     return a.y != b.y ? a.y < b.y : a.x < b.x;
-}
+};
 
 /** The cells that corners of a level are spread over. */
 struct CellGrid {
@@ -118,29 +118,43 @@ std::size_t detectInCells(const cv::Mat& image, const FeatureOptions& options, S
     for (std::size_t c = 0; c < used; ++c) {
         auto& cell = scratch.cells[c];
         if (cell.empty()) detectFast(image, grid.areaOf(static_cast<int>(c)), least, cell);
-        std::sort(cell.begin(), cell.end(), stronger);
     }
     return used;
 }
 
-/** Takes the best corner of every cell, then the second best, and so on: even spread first,
- * strength within what is left over. */
-std::vector<FastCorner> selectEvenly(const std::vector<std::vector<FastCorner>>& cells,
-                                     std::size_t used, std::size_t quota) {
-    std::vector<FastCorner> selected;
-    std::vector<FastCorner> round;
-    for (std::size_t rank = 0; selected.size() < quota; ++rank) {
-        round.clear();
-        for (std::size_t c = 0; c < used; ++c) {
-            if (rank < cells[c].size()) round.push_back(cells[c][rank]);
-        }
-        if (round.empty()) break;
-        if (selected.size() + round.size() > quota) {
-            std::sort(round.begin(), round.end(), stronger);
-            round.resize(quota - selected.size());
-        }
-        selected.insert(selected.end(), round.begin(), round.end());
+/** \return how many corners every cell may give, as far as it has them, for `quota` to suffice */
+std::size_t fairShare(const std::vector<std::vector<FastCorner>>& cells, std::size_t used,
+                      std::size_t quota) {
+    for (std::size_t share = 0, given = 0;; ++share) {
+        const auto more = std::count_if(cells.begin(), cells.begin() + used,
+                                        [&](const auto& cell) { return cell.size() > share; });
+        given += more;
+        if (more == 0 || given > quota) return share;
     }
+}
+
+/** The `count` strongest of `corners` come first, the next of them after these. */
+void bringForward(std::vector<FastCorner>& corners, std::size_t count) {
+    if (count < corners.size()) {
+        std::nth_element(corners.begin(), corners.begin() + count, corners.end(), stronger);
+    }
+}
+
+/** Takes the best corners of every cell, as many of each: even spread first, strength within a cell
+ *  and for what is left over of the quota. Reorders the cells. */
+std::vector<FastCorner> selectEvenly(std::vector<std::vector<FastCorner>>& cells, std::size_t used,
+                                     std::size_t quota) {
+    const std::size_t share = fairShare(cells, used, quota);
+    std::vector<FastCorner> selected, next_best;
+    for (std::size_t c = 0; c < used; ++c) {
+        bringForward(cells[c], share);
+        const std::size_t taken = std::min(share, cells[c].size());
+        selected.insert(selected.end(), cells[c].begin(), cells[c].begin() + taken);
+        if (taken < cells[c].size()) next_best.push_back(cells[c][taken]);
+    }
+    const std::size_t left_over = std::min(quota - selected.size(), next_best.size());
+    bringForward(next_best, left_over);
+    selected.insert(selected.end(), next_best.begin(), next_best.begin() + left_over);
     return selected;
 }
 
@@ -171,12 +185,11 @@ cv::Point2f subPixelOffset(const cv::Mat& image, int x, int y) {
 
 Descriptor describeCorner(const std::uint8_t* centre, const int* offsets) {
     Descriptor descriptor{};
-    for (int word = 0; word < 4; ++word) {
-        std::uint64_t bits = 0;
-        for (int i = 0; i < 64; ++i, offsets += 2) {
-            bits |= static_cast<std::uint64_t>(centre[offsets[0]] < centre[offsets[1]]) << i;
+    for (std::uint64_t& word : descriptor) {
+        for (int i = 63; i >= 0; --i) {  // the sum is one add with carry; a shift by i takes longer
+            word += word + (centre[offsets[2 * i]] < centre[offsets[2 * i + 1]]);
         }
-        descriptor[word] = bits;
+        offsets += 2 * 64;
     }
     return descriptor;
 }
@@ -190,6 +203,12 @@ Patch patchAround(const cv::Mat& image, int x, int y, const cv::Point2f& corner)
                     Patch::side);
     }
     return patch;
+}
+
+void reserve(OrbFeatures& features, std::size_t count) {
+    features.corners.reserve(count);
+    features.descriptors.reserve(count);
+    features.patches.reserve(count);
 }
 
 int discreteOrientation(float angle) {
@@ -217,6 +236,7 @@ OrbFeatures OrbExtractor::extract(const cv::Mat& grey) const {
     buildPyramid(grey, scale_, scratch);
     updateOffsets(scratch);
     OrbFeatures features;
+    reserve(features, options_.count);
     for (std::size_t l = 0; l < scratch.levels.size(); ++l) {
         const Level& level = scratch.levels[l];
         const std::size_t used = detectInCells(level.sharp, options_, scratch);
