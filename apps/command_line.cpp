@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <opencv2/core/utility.hpp>
 
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
@@ -65,6 +66,7 @@ void declareCommonOptions(CLI::App& app) {
 }
 
 int runProgram(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {
+    cv::setNumThreads(1);  // the threads are ours; OpenCV's own would spin between two images
     return runMain(app.get_name(), [&] {
         try {
             app.parse(argc, argv);
