@@ -91,6 +91,7 @@ TEST_F(FaultOutputs, killedAtAnyMoment) {
         unfinished += !expectOldOrNew("out");
         restoreEarlier();
     }
+    RecordProperty("killed_before_the_end", unfinished);
     EXPECT_GT(unfinished, kills / 5) << "hardly a run was killed before its end";
     killAfter(0.9 * run_s_, "rgbd-slam", arguments("a.rawlog", "out"));
     run("a.rawlog", "out");

@@ -104,6 +104,7 @@ TEST_P(FaultReuse, killedAtAnyMoment) {
         expectDone("rgbd-slam", slam("%second.rawlog -o %found --no-maps --localize --map OUT"),
                    "out");
     }
+    RecordProperty("killed_before_the_end", unfinished);
     EXPECT_GT(unfinished, kills / 5) << "hardly a run was killed before its end";
     EXPECT_EQ(filesIn(*folder_ / "map"), *map_);
     killWorkAfter(0.9 * run_s_);

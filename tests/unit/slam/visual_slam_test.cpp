@@ -85,6 +85,38 @@ TEST(VisualSlam, closesTheLoopOfAFullTurn) {
     EXPECT_LT(run.largestError(), 0.015);
 }
 
+/** From the walls of SyntheticWorld, m. */
+double distanceFromWalls(const Eigen::Vector3d& p) {
+    constexpr double inner = 2.8, outer = 3;
+    const auto off = [&](double at) {
+        return std::max({0.0, inner - std::abs(at), std::abs(at) - outer});
+    };
+    return std::min(off(p.x()), off(p.z()));
+}
+
+TEST(VisualSlam, pointsWithoutDepthBecomeLandmarksWhereTheyAre) {
+    const Camera camera;
+    SyntheticWorld world(24000);
+    VisualSlam slam({}, camera);
+    for (int i = 0; i < 40; ++i) {
+        Frame frame = world.view({Eigen::Matrix3d::Identity(), {0.03 * i, 0, 0}}, 0, camera);
+        frame.stamp_s = 0.033 * (i + 1);
+        for (Keypoint& k : frame.keypoints) {
+            if (k.v < camera.cy) k.depth_m = 0;
+        }
+        ASSERT_EQ(slam.track(std::move(frame)).origin, FrameOrigin::Tracked) << i;
+    }
+    slam.finish();
+    int above = 0, astray = 0;
+    for (const LandmarkView& landmark : slam.landmarks()) {
+        if (landmark.position.y() > -0.1) continue;
+        ++above;
+        astray += distanceFromWalls(landmark.position) > 0.1;
+    }
+    EXPECT_GT(above, 100);
+    EXPECT_LT(astray, above / 20);
+}
+
 std::vector<std::optional<SE3>> alongWall(double length_m) {
     std::vector<std::optional<SE3>> poses;
     for (double x = 2; x < 2 + length_m; x += 0.05) {
