@@ -152,7 +152,8 @@ void Furnisher::workplace(const SE3& frame, double width, bool chair_too) {
     table(frame, {depth, width, height});
     box(shifted(frame, -0.05, width / 2 - 0.3, 0), {0.6, 0.42, 0.62}, BoxSkin(anyOf(woods_)));
     const SE3 top = shifted(frame, 0, 0, height);
-    monitor(turned(shifted(top, -0.2, random_.uniform(-0.1, 0.1), 0), random_.uniform(-.15, .15)));
+    const double screen_yaw = random_.uniform(-.15, .15);
+    monitor(turned(shifted(top, -0.2, random_.uniform(-0.1, 0.1), 0), screen_yaw));
     if (width > 1.5) monitor(turned(shifted(top, -0.18, -0.62, 0), 0.4));
     const BoxSkin keys(Skin{black_});
     BoxSkin keyboard = keys;
@@ -164,9 +165,9 @@ void Furnisher::workplace(const SE3& frame, double width, bool chair_too) {
     cup(shifted(top, 0.02, 0.42, 0));
     bookPile(shifted(top, -0.15, width / 2 - 0.2, 0), 3 + random_.below(4));
     clutter(shifted(top, -0.05, -width / 2 + 0.25, 0), 0.5, 0.4, 4);
-    if (chair_too)
-        chair(turned(shifted(frame, 0.75, random_.uniform(-0.15, 0.15), 0),
-                     kPi + random_.uniform(-0.5, 0.5)));
+    if (!chair_too) return;
+    const double chair_yaw = kPi + random_.uniform(-0.5, 0.5);
+    chair(turned(shifted(frame, 0.75, random_.uniform(-0.15, 0.15), 0), chair_yaw));
 }
 
 void Furnisher::chair(const SE3& frame) {
@@ -203,11 +204,13 @@ void Furnisher::packageRow(const SE3& frame, double width, double headroom) {
         const double side = random_.uniform(0.1, 0.19);
         const double tall = std::min(headroom - 0.02, random_.uniform(0.1, 0.26));
         const SE3 place = turned(shifted(frame, 0.15, y, 0), random_.uniform(-0.4, 0.4));
-        if (random_.chance(0.25))
-            cylinder(place, side / 2, side / 2, tall, anyOf(packages_), anyOf(metals_));
-        else
+        if (random_.chance(0.25)) {
+            const Skin lid = anyOf(metals_);
+            cylinder(place, side / 2, side / 2, tall, anyOf(packages_), lid);
+        } else {
             box(place, {side, side, tall},
                 BoxSkin(anyOf(random_.chance(0.5) ? packages_ : boxes_)));
+        }
     }
 }
 
@@ -292,9 +295,10 @@ void Furnisher::cardboardPile(const SE3& frame, int count) {
     double z = 0;
     for (int i = 0; i < count; ++i) {
         const double side = random_.uniform(0.3, 0.48), tall = random_.uniform(0.22, 0.36);
-        box(turned(shifted(frame, random_.uniform(-.03, .03), random_.uniform(-.03, .03), z),
-                   random_.uniform(-0.4, 0.4)),
-            {side, side * 1.2, tall}, BoxSkin(anyOf(boxes_)));
+        const Skin skin = anyOf(boxes_);
+        const double yaw = random_.uniform(-0.4, 0.4);
+        const double y = random_.uniform(-.03, .03), x = random_.uniform(-.03, .03);
+        box(turned(shifted(frame, x, y, z), yaw), {side, side * 1.2, tall}, BoxSkin(skin));
         z += tall;
     }
 }
@@ -317,8 +321,8 @@ void Furnisher::bookPile(const SE3& frame, int count) {
         const double thick = random_.uniform(0.018, 0.045);
         BoxSkin skin(spine());
         skin.top = anyOf(packages_);
-        box(turned(shifted(frame, 0, 0, z), random_.uniform(-0.5, 0.5)),
-            {random_.uniform(0.14, 0.19), random_.uniform(0.2, 0.26), thick}, skin);
+        const Vector3d size{random_.uniform(0.14, 0.19), random_.uniform(0.2, 0.26), thick};
+        box(turned(shifted(frame, 0, 0, z), random_.uniform(-0.5, 0.5)), size, skin);
         z += thick;
     }
 }
@@ -328,24 +332,24 @@ void Furnisher::papers(const SE3& frame, int count) {
         BoxSkin skin(Skin{white_});
         skin.bottom = kHidden;
         skin.top = anyOf(papers_);
-        box(turned(
-                shifted(frame, random_.uniform(-0.1, 0.1), random_.uniform(-0.12, 0.12), 0.004 * i),
-                random_.uniform(-0.7, 0.7)),
-            {0.297, 0.21, 0.004}, skin);
+        const double yaw = random_.uniform(-0.7, 0.7);
+        const double y = random_.uniform(-0.12, 0.12), x = random_.uniform(-0.1, 0.1);
+        box(turned(shifted(frame, x, y, 0.004 * i), yaw), {0.297, 0.21, 0.004}, skin);
     }
 }
 
 void Furnisher::package(const SE3& frame) {
     const double side = random_.uniform(0.06, 0.15);
+    const Skin skin = anyOf(packages_);
     box(frame, {side, side * random_.uniform(0.7, 1.4), random_.uniform(0.05, 0.22)},
-        BoxSkin(anyOf(packages_)));
+        BoxSkin(skin));
 }
 
 void Furnisher::clutter(const SE3& frame, double length, double width, int count) {
     for (int i = 0; i < count; ++i) {
         const double y = width * ((i + random_.uniform(0.2, 0.8)) / count - 0.5);
-        const SE3 place = turned(shifted(frame, length * random_.uniform(-0.3, 0.3), y, 0),
-                                 random_.uniform(-0.8, 0.8));
+        const double yaw = random_.uniform(-0.8, 0.8);
+        const SE3 place = turned(shifted(frame, length * random_.uniform(-0.3, 0.3), y, 0), yaw);
         switch (random_.below(5)) {
             case 0:
                 cup(place);

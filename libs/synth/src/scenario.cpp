@@ -94,8 +94,8 @@ World desk(int, std::uint64_t seed) {
         eyes.emplace_back(1.5 + 0.75 * across + random.uniform(-0.1, 0.1),
                           1.25 + 0.25 * std::cos(2 * kPi * i / 6),
                           1.2 + 0.15 * std::sin(2 * kPi * i / 7));
-        targets.emplace_back(1.5 - 0.35 * across + random.uniform(-0.2, 0.2),
-                             0.35 + random.uniform(-0.1, 0.1), 0.82 + random.uniform(-0.1, 0.15));
+        const double z = 0.82 + random.uniform(-0.1, 0.15), y = 0.35 + random.uniform(-0.1, 0.1);
+        targets.emplace_back(1.5 - 0.35 * across + random.uniform(-0.2, 0.2), y, z);
     }
     world.motion = handHeld({eyes, 0.5, true}, {targets, 0.5, true}, {0.008, 0.012}, seed);
     return world;

@@ -28,12 +28,14 @@ cv::Mat valueNoise(cv::Size size, cv::Size cells, Random& random) {
 void drawGlyph(cv::Mat& picture, const cv::Rect& box, const Bgr& ink, int thickness,
                Random& random) {
     const auto corner = [&] {
-        return cv::Point(box.x + random.below(3) * box.width / 2,
-                         box.y + random.below(3) * box.height / 2);
+        const cv::Point at = anyPixel({3, 3}, random);
+        return cv::Point(box.x + at.x * box.width / 2, box.y + at.y * box.height / 2);
     };
     const int strokes = 2 + random.below(2);
-    for (int i = 0; i < strokes; ++i)
-        cv::line(picture, corner(), corner(), ink, thickness, cv::LINE_AA);
+    for (int i = 0; i < strokes; ++i) {
+        const cv::Point begin = corner(), end = corner();
+        cv::line(picture, end, begin, ink, thickness, cv::LINE_AA);
+    }
     if (random.chance(0.4))
         cv::ellipse(picture, cv::Point(box.x + box.width / 2, box.y + box.height / 2),
                     cv::Size(box.width / 2, box.height / 2), 0, 360 * random.uniform(), 360, ink,
@@ -44,7 +46,7 @@ void drawShape(cv::Mat& picture, const cv::Rect& box, Random& random) {
     const Bgr color = vividColor(random);
     const int reach =
         std::max(3, static_cast<int>(std::min(box.width, box.height) * random.uniform(0.04, 0.22)));
-    const cv::Point at(box.x + random.below(box.width), box.y + random.below(box.height));
+    const cv::Point at = box.tl() + anyPixel(box.size(), random);
     switch (random.below(4)) {
         case 0:
             cv::circle(picture, at, reach, color, cv::FILLED, cv::LINE_AA);
@@ -58,14 +60,22 @@ void drawShape(cv::Mat& picture, const cv::Rect& box, Random& random) {
         default: {
             std::vector<cv::Point> corners;
             corners.reserve(5);
-            for (int i = 0; i < 3 + random.below(3); ++i)
-                corners.push_back(at + cv::Point(random.below(2 * reach) - reach,
-                                                 random.below(2 * reach) - reach));
+            const cv::Point first = at - cv::Point(reach, reach);
+            int wanted = 3 + random.below(3);  // asked anew after each corner
+            while (static_cast<int>(corners.size()) < wanted) {
+                corners.push_back(first + anyPixel({2 * reach, 2 * reach}, random));
+                wanted = 3 + random.below(3);
+            }
             cv::fillPoly(picture, std::vector<std::vector<cv::Point>>{corners}, color, cv::LINE_AA);
         }
     }
 }
 }  // namespace
+
+cv::Point anyPixel(cv::Size size, Random& random) {
+    const int y = random.below(size.height), x = random.below(size.width);
+    return {x, y};
+}
 
 cv::Mat canvas(cv::Size size, const Bgr& color) {
     return cv::Mat(size, CV_8UC3, color);
@@ -76,7 +86,8 @@ Bgr scaled(const Bgr& color, double factor) {
 }
 
 Bgr vividColor(Random& random) {
-    Bgr color(random.uniform(10, 90), random.uniform(40, 160), random.uniform(150, 240));
+    const double red = random.uniform(150, 240), green = random.uniform(40, 160);
+    Bgr color{random.uniform(10, 90), green, red};
     for (int i = 2; i > 0; --i) std::swap(color[i], color[random.below(i + 1)]);
     const double grey = (color[0] + color[1] + color[2]) / 3, fading = random.uniform(0.15, 0.6);
     for (int i = 0; i < 3; ++i) color[i] += fading * (grey - color[i]);

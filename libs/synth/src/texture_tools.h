@@ -1,4 +1,6 @@
-/** Brushes that the painters share. */
+/** Brushes that the painters share. In all of this library each random number is drawn in a
+ * statement of its own or within braces: C++ leaves it open which argument of a call is worked out
+ * first, and a scene must not depend on the compiler. */
 #pragma once
 #include <opencv2/core/mat.hpp>
 
@@ -6,6 +8,9 @@
 #include "rgbd_graphslam/synth/textures.h"
 
 namespace rgbd_graphslam::synth {
+
+/** Any pixel of a picture of this size. */
+cv::Point anyPixel(cv::Size size, Random& random);
 
 /** A plain picture. */
 cv::Mat canvas(cv::Size size, const Bgr& color);

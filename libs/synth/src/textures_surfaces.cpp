@@ -23,10 +23,11 @@ cv::Mat paintPlaster(const Bgr& color, double contrast, Random& random) {
     addRelief(picture, fractalNoise(kTile, {4, 4}, 4, 0.6, random), contrast);
     addRelief(picture, fractalNoise(kTile, {128, 128}, 3, 0.8, random), contrast * 0.7);
     for (int i = 0; i < 14; ++i) {
-        const cv::Point at(random.below(kTile.width), random.below(kTile.height));
-        cv::ellipse(picture, at, cv::Size(2 + random.below(9), 1 + random.below(3)),
-                    180 * random.uniform(), 0, 360, scaled(color, 1 - contrast * 0.012), cv::FILLED,
-                    cv::LINE_AA);
+        const cv::Point at = anyPixel(kTile, random);
+        const double angle = 180 * random.uniform();
+        const int height = 1 + random.below(3), width = 2 + random.below(9);
+        cv::ellipse(picture, at, cv::Size(width, height), angle, 0, 360,
+                    scaled(color, 1 - contrast * 0.012), cv::FILLED, cv::LINE_AA);
     }
     return picture;
 }
@@ -36,9 +37,9 @@ cv::Mat paintCarpet(const Bgr& color, Random& random) {
     addRelief(picture, fractalNoise(kTile, {6, 6}, 4, 0.7, random), 14);
     addRelief(picture, fractalNoise(kTile, {256, 256}, 2, 0.9, random), 42);
     for (int i = 0; i < 1600; ++i) {
-        const cv::Point at(random.below(kTile.width), random.below(kTile.height));
-        cv::circle(picture, at, 1 + random.below(3), scaled(color, random.chance(0.5) ? 0.5 : 1.6),
-                   cv::FILLED, cv::LINE_AA);
+        const cv::Point at = anyPixel(kTile, random);
+        const Bgr tuft = scaled(color, random.chance(0.5) ? 0.5 : 1.6);
+        cv::circle(picture, at, 1 + random.below(3), tuft, cv::FILLED, cv::LINE_AA);
     }
     return picture;
 }
@@ -89,7 +90,7 @@ cv::Mat paintWood(const Bgr& color, Random& random) {
     addRelief(picture, fractalNoise(kTile, {2, 14}, 5, 0.8, random), 55);
     addRelief(picture, fractalNoise(kTile, {24, 256}, 2, 0.8, random), 22);
     for (int i = 0; i < 5; ++i) {
-        const cv::Point at(random.below(kTile.width), random.below(kTile.height));
+        const cv::Point at = anyPixel(kTile, random);
         for (int ring = 3; ring > 0; --ring)
             cv::ellipse(picture, at, cv::Size(9 * ring, 4 * ring), 0, 0, 360,
                         scaled(color, ring % 2 ? 0.55 : 0.8), 2, cv::LINE_AA);
@@ -100,9 +101,11 @@ cv::Mat paintWood(const Bgr& color, Random& random) {
 cv::Mat paintCeiling(Random& random) {
     cv::Mat picture = canvas(kTile, Bgr(225, 228, 228));
     addRelief(picture, fractalNoise(kTile, {64, 64}, 3, 0.8, random), 5);
-    for (int i = 0; i < 900; ++i)
-        cv::circle(picture, cv::Point(random.below(kTile.width), random.below(kTile.height)),
-                   1 + random.below(3), Bgr(180, 184, 184), cv::FILLED, cv::LINE_AA);
+    for (int i = 0; i < 900; ++i) {
+        const int reach = 1 + random.below(3);
+        cv::circle(picture, anyPixel(kTile, random), reach, Bgr(180, 184, 184), cv::FILLED,
+                   cv::LINE_AA);
+    }
     cv::rectangle(picture, cv::Rect(cv::Point(), kTile), Bgr(150, 152, 152), 14);
     cv::rectangle(picture, cv::Rect(14, 14, kTile.width - 28, kTile.height - 28),
                   Bgr(245, 246, 246), 3);

@@ -38,11 +38,13 @@ void drawSpine(cv::Mat& picture, const cv::Rect& box, Random& random) {
     const Bgr color = random.chance(0.6) ? vividColor(random) : quietColor(random);
     cv::rectangle(picture, box, color, cv::FILLED);
     const Bgr ink = cv::norm(color) > 230 ? kInk : Bgr(225, 235, 240);
-    for (int band = 0; band < 1 + random.below(3); ++band)
-        cv::rectangle(
-            picture,
-            cv::Rect(box.x, box.y + random.below(box.height - 24), box.width, 6 + random.below(18)),
-            vividColor(random), cv::FILLED);
+    int bands = 1 + random.below(3);  // asked anew after each band
+    for (int band = 0; band < bands; ++band) {
+        const Bgr shade = vividColor(random);
+        const int height = 6 + random.below(18), y = box.y + random.below(box.height - 24);
+        cv::rectangle(picture, cv::Rect(box.x, y, box.width, height), shade, cv::FILLED);
+        bands = 1 + random.below(3);
+    }
     cv::Mat title = canvas({box.height * 6 / 10, box.width * 7 / 10}, color);
     writeText(title, inset(title, 3), title.rows - 6, ink, random);
     cv::rotate(title, title, cv::ROTATE_90_CLOCKWISE);
@@ -161,9 +163,12 @@ cv::Mat paintWindow(Random& random) {
         picture.row(y).setTo(Bgr(250, 215 + y / 25.0, 180 + y / 12.0));
     addRelief(picture, fractalNoise(picture.size(), {4, 3}, 5, 0.6, random), 22);
     drawHouses(picture, 560, random);
-    for (int i = 0; i < 260; ++i)
-        cv::circle(picture, {random.below(900), 690 + random.below(110)}, 6 + random.below(22),
-                   Bgr(40, 60 + random.below(90), 40 + random.below(40)), cv::FILLED, cv::LINE_AA);
+    for (int i = 0; i < 260; ++i) {
+        const int red = 40 + random.below(40), green = 60 + random.below(90);
+        const int reach = 6 + random.below(22);
+        const cv::Point at{random.below(900), 690 + random.below(110)};
+        cv::circle(picture, at, reach, Bgr(40, green, red), cv::FILLED, cv::LINE_AA);
+    }
     for (int x : {0, 438, 876})
         cv::rectangle(picture, cv::Rect(x, 0, 24, 800), Bgr(215, 220, 220), cv::FILLED);
     for (int y : {0, 250, 776})
@@ -193,8 +198,9 @@ cv::Mat paintRug(Random& random) {
 cv::Mat paintLeaves(Random& random) {
     cv::Mat picture = canvas({512, 512}, Bgr(20, 45, 25));
     for (int i = 0; i < 240; ++i) {
-        const Bgr color(30 + random.below(40), 90 + random.below(110), 30 + random.below(60));
-        const cv::Point at(random.below(512), random.below(512));
+        const int red = 30 + random.below(60), green = 90 + random.below(110);
+        const Bgr color(30 + random.below(40), green, red);
+        const cv::Point at = anyPixel(picture.size(), random);
         const double angle = 180 * random.uniform();
         const int length = 18 + random.below(30);
         cv::ellipse(picture, at, cv::Size(length, length / 3), angle, 0, 360, color, cv::FILLED,
@@ -249,7 +255,8 @@ cv::Mat paintBookSpines(int count, Random& random) {
 }
 
 cv::Mat paintFace(Random& random) {
-    const Bgr skin(110 + random.below(60), 140 + random.below(50), 190 + random.below(40));
+    const int red = 190 + random.below(40), green = 140 + random.below(50);
+    const Bgr skin(110 + random.below(60), green, red);
     cv::Mat picture = canvas({512, 256}, skin);
     addRelief(picture, fractalNoise(picture.size(), {8, 4}, 5, 0.7, random), 12);
     const Bgr hair = scaled(quietColor(random), 0.35);
