@@ -49,6 +49,7 @@ struct CornerSigns {
 /** Which crossed edges of a cell belong to the same sheet of surface. */
 class Sheets {
   public:
+    Sheets() = default;
     explicit Sheets(const CornerSigns& signs) : signs_(signs) {
         std::iota(sheet_.begin(), sheet_.end(), 0);
         for (int axis = 0; axis < 3; ++axis) {
@@ -67,11 +68,10 @@ class Sheets {
     }
     /** From 0; of a crossed edge. */
     int of(int edge) const { return sheet_[edge]; }
-
-  private:
     /** What is not seen is mostly hidden by surface. */
     bool isBehind(int corner) const { return (signs_.behind | ~signs_.known) >> corner & 1; }
 
+  private:
     /** Cuts what lies behind off the face: walking round it, the edge where that begins and the one
      *  where it ends are on one sheet. Both cells at the face see it alike. */
     void joinInFace(int axis, int side) {
@@ -87,23 +87,24 @@ class Sheets {
     }
 
     void join(int edge, int other) {
-        std::replace(sheet_.begin(), sheet_.end(), int{sheet_[edge]}, int{sheet_[other]});
+        const std::int8_t from = sheet_[edge], to = sheet_[other];
+        std::replace(sheet_.begin(), sheet_.end(), from, to);
     }
 
     void number() {
-        std::array<int, edges> numbers;
+        std::array<std::int8_t, edges> numbers;
         numbers.fill(-1);
         for (int e = 0; e < edges; ++e) {
             if (!crosses(e)) continue;
-            int& number = numbers[sheet_[e]];
+            std::int8_t& number = numbers[sheet_[e]];
             if (number < 0) number = count_++;
             sheet_[e] = number;
         }
     }
 
     CornerSigns signs_;
-    int count_ = 0;
-    std::array<int, edges> sheet_;
+    std::int8_t count_ = 0;
+    std::array<std::int8_t, edges> sheet_{};  // small: every cell at the surface keeps its own
 };
 
 /** A block's voxels and the first ones of the blocks after it. */
@@ -142,7 +143,7 @@ class SurfaceNets {
   private:
     struct Cell {
         std::uint32_t first_vertex = 0;  // one a sheet
-        CornerSigns signs;
+        Sheets sheets;
     };
     /** Null where no view saw it. */
     using CellCorners = std::array<const Voxel*, corners>;
@@ -179,7 +180,7 @@ class SurfaceNets {
         if (signs.behind == 0 || signs.behind == signs.known) return;
         const Sheets sheets(signs);
         if (sheets.count() == 0) return;
-        cells_[voxelKey(index)] = {static_cast<std::uint32_t>(mesh_.vertices.size()), signs};
+        cells_[voxelKey(index)] = {static_cast<std::uint32_t>(mesh_.vertices.size()), sheets};
         for (int sheet = 0; sheet < sheets.count(); ++sheet)
             addVertex(index, voxels, sheets, sheet);
     }
@@ -224,11 +225,10 @@ class SurfaceNets {
 
     /** Those of the edges at a cell's lower corner, each in the middle of four cells. */
     void addFaces(const VoxelIndex& index, const Cell& cell) {
-        const Sheets sheets(cell.signs);
         for (int axis = 0; axis < 3; ++axis) {
-            if (!sheets.crosses(edgeNumber(axis, 0))) continue;
+            if (!cell.sheets.crosses(edgeNumber(axis, 0))) continue;
             const auto around = verticesAround(index, axis);
-            const bool leads_to_free_side = cell.signs.behind & 1;
+            const bool leads_to_free_side = cell.sheets.isBehind(0);
             if (around) addQuad(*around, leads_to_free_side);
         }
     }
@@ -247,7 +247,7 @@ class SurfaceNets {
             place[c] -= back_c;
             const Cell* cell = cells_.find(voxelKey({place[0], place[1], place[2]}));
             if (!cell) return std::nullopt;
-            const int sheet = Sheets(cell->signs).of(edgeNumber(axis, back_b << b | back_c << c));
+            const int sheet = cell->sheets.of(edgeNumber(axis, back_b << b | back_c << c));
             around[i] = cell->first_vertex + static_cast<std::uint32_t>(sheet);
         }
         return around;
