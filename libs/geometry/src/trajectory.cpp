@@ -68,6 +68,19 @@ bool anyBetween(const std::vector<double>& stamps_s, double from_s, double to_s)
     return next != stamps_s.end() && *next < to_s;
 }
 
+std::vector<Trajectory> pieces(const Trajectory& poses, const std::vector<std::size_t>& lengths) {
+    std::vector<Trajectory> parts;
+    auto begin = poses.begin();
+    for (const std::size_t length : lengths) {
+        const auto left = static_cast<std::size_t>(poses.end() - begin);
+        const auto end = begin + static_cast<std::ptrdiff_t>(std::min(length, left));
+        parts.emplace_back(begin, end);
+        begin = end;
+    }
+    parts.emplace_back(begin, poses.end());
+    return parts;
+}
+
 Trajectory readTumTrajectory(const std::string& path) {
     Trajectory trajectory = readTumPoses(path);
     std::stable_sort(trajectory.begin(), trajectory.end(),

@@ -1,17 +1,24 @@
 #include "rgbd_graphslam/mapping/map_inputs.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "rgbd_graphslam/core/error.h"
 
 namespace rgbd_graphslam {
 
+std::vector<std::size_t> sessionLengths(const MapInputs& inputs) {
+    std::vector<std::size_t> lengths;
+    for (const EarlierSession& session : inputs.earlier) lengths.push_back(session.keyframes);
+    return lengths;
+}
+
 void checkInputs(const MapInputs& inputs) {
     if (inputs.keyframes.empty())
         throw Error("there is no keyframe to make maps of", "check the trajectory");
     const int count = static_cast<int>(inputs.keyframes.size());
-    std::size_t earlier = 0;
-    for (const EarlierSession& session : inputs.earlier) earlier += session.keyframes;
+    const auto sessions = sessionLengths(inputs);
+    const std::size_t earlier = std::accumulate(sessions.begin(), sessions.end(), std::size_t{0});
     if (earlier > inputs.keyframes.size())
         throw Error("earlier sessions name more keyframes than there are");
     for (const MapLoopEdge& loop : inputs.loops) {

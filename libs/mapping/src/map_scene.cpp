@@ -3,6 +3,8 @@
 #include <mrpt/opengl/CGridPlaneXY.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/CSetOfLines.h>
+#include <mrpt/opengl/CSetOfObjects.h>
+#include <mrpt/opengl/CText.h>
 #include <mrpt/opengl/stock_objects.h>
 
 #include <cmath>
@@ -35,14 +37,24 @@ void addSegment(mrpt::opengl::CSetOfLines& object, const Eigen::Vector3d& a,
 }
 
 /** \param unplaced_s where it is not drawn, as in MapInputs */
-mrpt::opengl::CSetOfLines::Ptr path(const char* name, const Trajectory& poses,
-                                    const std::vector<double>& unplaced_s, const TColor& color,
-                                    float width_px) {
-    auto object = lines(name, color, width_px);
+void addPath(mrpt::opengl::CSetOfLines& object, const Trajectory& poses,
+             const std::vector<double>& unplaced_s) {
     for (std::size_t i = 1; i < poses.size(); ++i) {
         if (anyBetween(unplaced_s, poses[i - 1].stamp_s, poses[i].stamp_s)) continue;
-        addSegment(*object, poses[i - 1].T_world_cam.t, poses[i].T_world_cam.t);
+        addSegment(object, poses[i - 1].T_world_cam.t, poses[i].T_world_cam.t);
     }
+}
+
+mrpt::opengl::CSetOfLines::Ptr trajectoryLines(const MapInputs& inputs) {
+    auto object = lines(scene_names::trajectory, trajectory_color, 3);
+    addPath(*object, inputs.trajectory, inputs.unplaced_s);
+    return object;
+}
+
+mrpt::opengl::CSetOfLines::Ptr linesBeforeLoops(const MapInputs& inputs) {
+    auto object = lines(scene_names::graph_before_loops, before_color, 2);
+    for (const Trajectory& session : pieces(inputs.keyframes_before_loops, sessionLengths(inputs)))
+        addPath(*object, session, inputs.unplaced_s);
     return object;
 }
 
@@ -71,6 +83,22 @@ mrpt::opengl::CSetOfLines::Ptr loopLines(const MapInputs& inputs) {
                    inputs.keyframes[loop.to].T_world_cam.t);
     }
     return object;
+}
+
+/** At the middle of each loop the number of matches that agree with it. */
+mrpt::opengl::CSetOfObjects::Ptr loopInliers(const MapInputs& inputs) {
+    auto all = mrpt::opengl::CSetOfObjects::Create();
+    all->setName(scene_names::loop_inliers);
+    for (const MapLoopEdge& loop : inputs.loops) {
+        const Eigen::Vector3d &from = inputs.keyframes[loop.from].T_world_cam.t,
+                              &to = inputs.keyframes[loop.to].T_world_cam.t;
+        auto text = mrpt::opengl::CText::Create(std::to_string(loop.inliers));
+        text->setName("loop " + std::to_string(loop.from) + "-" + std::to_string(loop.to));
+        text->setColor_u8(loop_color);
+        text->setLocation(point((from + to) / 2));
+        all->insert(text);
+    }
+    return all;
 }
 
 mrpt::opengl::CPointCloudColoured::Ptr cloud(const PointMap& points) {
@@ -106,12 +134,11 @@ mrpt::opengl::COpenGLScene makeScene(const MapInputs& inputs, const PointMap& po
     scene.getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(background));
     scene.insert(floorGrid(points));
     scene.insert(cloud(points));
-    scene.insert(
-        path(scene_names::trajectory, inputs.trajectory, inputs.unplaced_s, trajectory_color, 3));
+    scene.insert(trajectoryLines(inputs));
     scene.insert(frustums(inputs.keyframes, camera));
     scene.insert(loopLines(inputs));
-    scene.insert(path(scene_names::graph_before_loops, inputs.keyframes_before_loops,
-                      inputs.unplaced_s, before_color, 2));
+    scene.insert(loopInliers(inputs));
+    scene.insert(linesBeforeLoops(inputs));
     return scene;
 }
 

@@ -33,7 +33,8 @@ class Parts {
     std::vector<std::uint32_t> parent_;
 };
 
-/** The mesh of some of the triangles, with the vertices that they need, in their order. */
+}  // namespace
+
 PlyModel meshOf(const PlyModel& mesh, std::vector<Triangle> triangles) {
     std::vector<bool> needed(mesh.vertices.size());
     for (const Triangle& triangle : triangles)
@@ -51,8 +52,6 @@ PlyModel meshOf(const PlyModel& mesh, std::vector<Triangle> triangles) {
     part.triangles = std::move(triangles);
     return part;
 }
-
-}  // namespace
 
 PlyModel withoutSmallParts(const PlyModel& mesh, double min_area_m2) {
     Parts parts(mesh.vertices.size());

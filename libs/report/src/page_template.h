@@ -11,7 +11,7 @@ inline constexpr const char* report_page = R"html(<!DOCTYPE html>
 <title>{{title}}</title>
 <style>
 :root { --ink: #22282e; --soft: #68727c; --line: #d9dee3; --paper: #fff; --ground: #f3f5f7;
-        --estimate: #d9661f; --truth: #4a5560; --before: #8a63b8; --after: #1f77b4; --loop: #c81e3c; }
+        --bar: #1f77b4; --false: #c81e3c; }
 * { box-sizing: border-box; }
 body { margin: 0; background: var(--ground); color: var(--ink);
        font: 15px/1.45 system-ui, "Segoe UI", "DejaVu Sans", sans-serif; }
@@ -37,20 +37,13 @@ figure { margin: 0 0 10px; }
 .note { margin: 8px 0 10px; }
 .grid-picture img { image-rendering: pixelated; width: 100%; max-height: 520px; object-fit: contain; }
 svg { width: 100%; height: auto; display: block; }
-svg text { font-size: 11px; fill: var(--soft); }
-svg path, svg polyline { fill: none; stroke-width: 1.6; stroke-linejoin: round; }
-svg .grid { stroke: var(--line); stroke-width: 1; }
-svg .estimate { stroke: var(--estimate); } svg .truth { stroke: var(--truth); stroke-dasharray: 5 3; }
-svg .before { stroke: var(--before); stroke-dasharray: 4 3; } svg .after { stroke: var(--after); }
-svg .loop { stroke: var(--loop); } svg .value { stroke: var(--after); stroke-width: 1.2; }
-svg .lost { fill: #f6c6c6; }
-table { border-collapse: collapse; width: 100%; font-size: 13px; font-variant-numeric: tabular-nums; }
+{{chart_style}}table { border-collapse: collapse; width: 100%; font-size: 13px; font-variant-numeric: tabular-nums; }
 th { text-align: right; color: var(--soft); font-weight: normal; }
 td { text-align: right; padding: 2px 0 2px 10px; }
 th:first-child, td:first-child { text-align: left; padding-left: 0; white-space: nowrap; }
-tr.false td { color: var(--loop); font-weight: 600; }
+tr.false td { color: var(--false); font-weight: 600; }
 td.bar { width: 34%; }
-td.bar i { display: block; height: 11px; background: var(--after); border-radius: 2px; min-width: 1px; }
+td.bar i { display: block; height: 11px; background: var(--bar); border-radius: 2px; min-width: 1px; }
 </style>
 </head>
 <body>

@@ -1,5 +1,7 @@
 #include "run_charts.h"
 
+#include <utility>
+
 #include "rgbd_graphslam/report/run_findings.h"
 #include "rgbd_graphslam/report/svg_chart.h"
 
@@ -47,6 +49,16 @@ std::vector<ChartLine> pathPieces(const RunRecord& run, const std::string& name,
     return withoutGaps(pathOf(name, css_class, poses), seconds, lostSpans(run.frames));
 }
 
+/** Keyframes of all sessions, with no line from one session to the next. */
+void addSessions(std::vector<ChartLine>& lines, const RunRecord& run, std::string name,
+                 const std::string& css_class, const Trajectory& keyframes) {
+    for (const Trajectory& session : pieces(keyframes, run.earlier_keyframes)) {
+        if (session.empty()) continue;
+        const auto drawn = pathPieces(run, std::exchange(name, {}), css_class, session);
+        lines.insert(lines.end(), drawn.begin(), drawn.end());
+    }
+}
+
 }  // namespace
 
 std::string pathChart(const RunRecord& run) {
@@ -58,10 +70,9 @@ std::string pathChart(const RunRecord& run) {
 
 std::string loopChart(const RunRecord& run) {
     if (run.loops.empty()) return {};
-    auto lines =
-        pathPieces(run, "keyframes by tracking alone", "before", run.keyframes_before_loops);
-    const auto after = pathPieces(run, "keyframes with loops", "after", run.keyframes);
-    lines.insert(lines.end(), after.begin(), after.end());
+    std::vector<ChartLine> lines;
+    addSessions(lines, run, "keyframes by tracking alone", "before", run.keyframes_before_loops);
+    addSessions(lines, run, "keyframes with loops", "after", run.keyframes);
     const auto at = [&](int keyframe) -> Eigen::Vector2d {
         return run.keyframes[static_cast<std::size_t>(keyframe)].T_world_cam.t.head<2>();
     };

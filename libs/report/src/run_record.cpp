@@ -97,6 +97,9 @@ void readFigures(const Json& summary, RunRecord& run) {
     run.maps_wall_s = summary.at("maps_wall_s");
     run.peak_memory_mb = summary.at("peak_memory_mb");
     run.stages = stagesOf(summary.at("stages"));
+    for (const Json& session : summary.value("earlier_sessions", Json::array())) {
+        run.earlier_keyframes.push_back(session.at("keyframes"));
+    }
     for (const Json& edge : summary.at("loop_edges")) {
         run.loops.push_back({edge.at(0), edge.at(1), edge.at(2), loopErrorOf(edge)});
     }

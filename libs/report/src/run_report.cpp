@@ -9,6 +9,7 @@
 #include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/report/html.h"
 #include "rgbd_graphslam/report/run_findings.h"
+#include "rgbd_graphslam/report/svg_chart.h"
 #include "run_charts.h"
 #include "run_tables.h"
 
@@ -47,6 +48,16 @@ std::optional<AteResult> ateOf(const RunRecord& run) {
     }
 }
 
+/** One of an earlier run in the folder goes where there is none now. */
+void writeLoopPicture(const RunRecord& run, const std::string& path) {
+    const std::string chart = loopChart(run);
+    if (chart.empty()) {
+        std::filesystem::remove(path);
+    } else {
+        writeTextAtomically(path, svgFile(chart));
+    }
+}
+
 class Page {
   public:
     explicit Page(const RunRecord& run) : run_(run), ate_(ateOf(run)) {}
@@ -54,6 +65,7 @@ class Page {
     std::string html() const {
         const std::string name = std::filesystem::path(run_.rawlog).filename().string();
         return filled(report_page, {{"title", htmlEscaped(name)},
+                                    {"chart_style", chart_style},
                                     {"subtitle", subtitle()},
                                     {"figures", figures()},
                                     {"findings", findings()},
@@ -150,6 +162,7 @@ std::string runReportHtml(const RunRecord& run) {
 
 void writeRunReport(const std::string& run_folder, const std::string& map_folder) {
     const RunRecord run = readRunRecord(run_folder, map_folder);
+    writeLoopPicture(run, map_folder + "/loops.svg");
     writeTextAtomically(map_folder + "/report.html", runReportHtml(run));
 }
 

@@ -124,6 +124,24 @@ Axes planAxes(const std::vector<ChartLine>& lines) {
 
 }  // namespace
 
+const char* const chart_style =
+    R"css(svg text { font: 11px system-ui, "Segoe UI", "DejaVu Sans", sans-serif; fill: #68727c; }
+svg path, svg polyline { fill: none; stroke-width: 1.6; stroke-linejoin: round; }
+svg .grid { stroke: #d9dee3; stroke-width: 1; }
+svg .estimate { stroke: #d9661f; } svg .truth { stroke: #4a5560; stroke-dasharray: 5 3; }
+svg .before { stroke: #8a63b8; stroke-dasharray: 4 3; } svg .after { stroke: #1f77b4; }
+svg .loop { stroke: #c81e3c; } svg .value { stroke: #1f77b4; stroke-width: 1.2; }
+svg .lost { fill: #f6c6c6; }
+)css";
+
+std::string svgFile(const std::string& chart) {
+    const std::size_t attributes = chart.find(' '), content = chart.find('>') + 1;
+    return "<svg xmlns=\"http://www.w3.org/2000/svg\"" +
+           chart.substr(attributes, content - attributes) + "\n<style>\n" + chart_style +
+           "</style>\n<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n" +
+           chart.substr(content);
+}
+
 double roundStep(double range, int parts) {
     const double rough = std::max(range, 1e-9) / parts;
     const double power = std::pow(10, std::floor(std::log10(rough)));

@@ -3,10 +3,13 @@
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
 
+#include <algorithm>
+#include <iterator>
 #include <type_traits>
 
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/mapping/map_files.h"
+#include "rgbd_graphslam/mapping/mesh_parts.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -42,6 +45,7 @@ Tree cutAbove(const Tree& tree, double highest_m) {
 const char* extensionOf(ExportFormat format) {
     switch (format) {
         case ExportFormat::Ply:
+        case ExportFormat::Mesh:
             return ".ply";
         case ExportFormat::Pcd:
             return ".pcd";
@@ -70,6 +74,24 @@ void exportPoints(const Vertices& points, ExportFormat format, const std::string
     }
     if (format == ExportFormat::Ply) return savePly(path, map);
     savePcd(path, map);
+}
+
+void exportMesh(const std::string& folder, double highest_m, const std::string& path) {
+    const std::string from = folder + "/mesh.ply";
+    if (!std::filesystem::exists(from))
+        throw Error("this run has no mesh", "rgbd-map " + folder + " --mesh 0.02 makes one");
+    const PlyModel mesh = readPly(from);
+    std::vector<std::array<std::uint32_t, 3>> low;
+    std::copy_if(mesh.triangles.begin(), mesh.triangles.end(), std::back_inserter(low),
+                 [&](const auto& triangle) {
+                     return std::all_of(triangle.begin(), triangle.end(), [&](std::uint32_t v) {
+                         return static_cast<double>(mesh.vertices[v].z()) <= highest_m;
+                     });
+                 });
+    if (low.empty()) throw Error("nothing of the mesh is below the ceiling that is cut off");
+    PlyModel cut = meshOf(mesh, std::move(low));
+    addNormals(cut);
+    writePly(path, cut);
 }
 
 void exportOctree(const std::string& folder, double highest_m, ExportFormat format,

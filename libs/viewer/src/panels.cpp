@@ -163,6 +163,7 @@ ExportPanel::ExportPanel(nanogui::Widget* screen) : nanogui::Window(screen, "Wri
     };
     add("points: PLY", ExportFormat::Ply);
     add("points: PCD", ExportFormat::Pcd);
+    add("mesh: PLY", ExportFormat::Mesh);
     add("octree with colours: OT", ExportFormat::ColorOctree);
     add("octree, small: BT", ExportFormat::BinaryOctree);
 }

@@ -133,6 +133,7 @@ void readPoses(const fs::path& folder, RunData& run) {
     run.rawlog = std::move(inputs.rawlog);
     run.trajectory = std::move(inputs.trajectory);
     run.unplaced_s = std::move(inputs.unplaced_s);
+    run.earlier_keyframes = sessionLengths(inputs);
     run.keyframes = std::move(inputs.keyframes);
     run.keyframes_before_loops = std::move(inputs.keyframes_before_loops);
     const int count = static_cast<int>(run.keyframes.size());

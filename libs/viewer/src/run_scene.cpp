@@ -64,8 +64,12 @@ void RunScene::showPoses() {
     renderer_.geometry().setLines(Part::Loops, edgeLines(run_.keyframes, run_.loops, loop_color));
     renderer_.geometry().setLines(Part::Covisibility,
                                   edgeLines(run_.keyframes, run_.covisibility, covisibility_color));
-    renderer_.geometry().setLines(
-        Part::BeforeLoops, pathLines(run_.keyframes_before_loops, run_.unplaced_s, before_color));
+    Vertices before;
+    for (const Trajectory& session : pieces(run_.keyframes_before_loops, run_.earlier_keyframes)) {
+        const Vertices lines = pathLines(session, run_.unplaced_s, before_color);
+        before.insert(before.end(), lines.begin(), lines.end());
+    }
+    renderer_.geometry().setLines(Part::BeforeLoops, before);
     setCamera(camera_);
 }
 
@@ -109,7 +113,9 @@ void RunScene::extendPath(const RunData& longer) {
 void RunScene::showClouds(const std::vector<std::pair<std::size_t, Vertices>>& clouds) {
     for (const auto& [keyframe, points] : clouds) {
         renderer_.setKeyframePoints(keyframe, points);
-        for (const Vertex& point : points) box_.extend(point.position.cast<double>());
+        Eigen::AlignedBox3f box;
+        for (const Vertex& point : points) box.extend(point.position);
+        box_.extend(box.cast<double>());
     }
 }
 

@@ -157,6 +157,8 @@ void ViewerWindow::exportMap(ExportFormat format) {
         const std::string path = freeName(outputFolder(), "export", extensionOf(format));
         if (format == ExportFormat::Ply || format == ExportFormat::Pcd) {
             exportPoints(renderer_->shownPoints(), format, path);
+        } else if (format == ExportFormat::Mesh) {
+            exportMesh(outputFolder(), sceneView().highest_m, path);
         } else {
             exportOctree(outputFolder(), sceneView().highest_m, format, path);
         }

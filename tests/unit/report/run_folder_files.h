@@ -15,7 +15,8 @@ struct MadeRun {
     double depth_factor = 1;           // of the estimate's positions against the truth
     bool with_truth = true, with_maps = true, with_loop = true;
     // JSON
-    std::string warnings = "[]", loop_edges = "[[0, 5, 40, 0.01]]", false_loops = "0";
+    std::string warnings = "[]", loop_edges = "[[0, 5, 40, 0.01]]", false_loops = "0",
+                earlier_sessions = "[]";
 };
 
 constexpr double made_start_s = 1000;
@@ -31,8 +32,8 @@ inline std::string poseLine(int frame, double factor) {
 inline std::string summaryText(const MadeRun& run) {
     const char* figures = R"({"mean": 3, "median": 2.5, "p95": 4, "max": 9})";
     return "{\"version\": \"0.1.0\", \"config_hash\": \"0123456789abcdef\", \"rawlog\": \"" +
-           run.rawlog +
-           "\", \"interrupted\": false, \"damage\": null, \"warnings\": " + run.warnings +
+           run.rawlog + "\", \"earlier_sessions\": " + run.earlier_sessions +
+           ", \"interrupted\": false, \"damage\": null, \"warnings\": " + run.warnings +
            ", \"out_of_order\": 0, \"culled_keyframes\": 0, \"landmarks\": 700, " +
            "\"loop_edges\": " + (run.with_loop ? run.loop_edges : "[]") +
            ", \"false_loops\": " + run.false_loops +

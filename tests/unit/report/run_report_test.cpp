@@ -42,6 +42,40 @@ TEST(RunReport, leavesOutWhatThereIsNot) {
     }
 }
 
+TEST(RunReport, hasItsPictureOfLoopsInAFile) {
+    const TestFolder folder;
+    makeRunFolder(folder, {});
+    writeRunReport(folder / "", folder / "");
+    const std::string page = readText(folder / "report.html");
+    const std::string picture = readText(folder / "loops.svg");
+    for (const char* line : {"before", "after", "loop"}) {
+        const std::string drawn = "<polyline class=\"" + std::string(line) + "\" points=";
+        const std::size_t from = picture.find(drawn);
+        ASSERT_NE(from, std::string::npos) << line;
+        EXPECT_THAT(page, HasSubstr(picture.substr(from, picture.find("/>", from) - from)));
+        EXPECT_THAT(picture, HasSubstr("." + std::string(line) + " { stroke: #"));
+    }
+    EXPECT_THAT(picture, testing::StartsWith("<svg xmlns=\"http:"
+                                             "//www.w3.org/2000/svg\" viewBox"));
+    MadeRun without;
+    without.with_loop = false;
+    makeRunFolder(folder, without);
+    writeRunReport(folder / "", folder / "");
+    EXPECT_FALSE(std::filesystem::exists(folder / "loops.svg"));
+}
+
+TEST(RunReport, drawsNothingFromOneSessionToTheNext) {
+    const std::regex before("<polyline class=\"before\"");
+    const auto pieces = [&](const std::string& earlier_sessions) {
+        MadeRun run;
+        run.earlier_sessions = earlier_sessions;
+        const std::string page = reportOf(run);
+        return std::distance(std::sregex_iterator(page.begin(), page.end(), before), {});
+    };
+    EXPECT_EQ(pieces("[]"), 1);
+    EXPECT_EQ(pieces("[{\"rawlog\": \"a.rawlog\", \"keyframes\": 3}]"), 2);
+}
+
 TEST(RunReport, drawsNothingAcrossLostFrames) {
     const std::regex estimate("<polyline class=\"estimate\"");
     const auto pieces = [&](const MadeRun& run) {

@@ -9,6 +9,7 @@
 
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/mapping/map_files.h"
+#include "rgbd_graphslam/mapping/mesh_parts.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -90,6 +91,27 @@ TEST_F(MapExport, leavesThatWereMergedStayWhole) {
 TEST_F(MapExport, aRunWithoutOctreeIsNamed) {
     EXPECT_THROW(exportOctree(folder_.string(), 2, ExportFormat::ColorOctree, path("cut.ot")),
                  Error);
+}
+
+TEST_F(MapExport, theMeshLosesWhatIsCutOff) {
+    PlyModel mesh;
+    mesh.vertices = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 3}};
+    mesh.colors = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}, {10, 11, 12}};
+    mesh.triangles = {{0, 1, 3}, {0, 1, 2}};
+    addNormals(mesh);
+    writePly(path("mesh.ply"), mesh);
+    exportMesh(folder_.string(), 2, path("cut.ply"));
+    const PlyModel cut = readPly(path("cut.ply"));
+    ASSERT_EQ(cut.triangles.size(), 1U);
+    EXPECT_EQ(cut.vertices.size(), 3U);
+    EXPECT_EQ(cut.colors[2], mesh.colors[2]);
+    EXPECT_EQ(cut.normals[0], Eigen::Vector3f(0, 0, 1));
+    EXPECT_THROW(exportMesh(folder_.string(), -1, path("none.ply")), Error);
+    EXPECT_FALSE(fs::exists(path("none.ply")));
+}
+
+TEST_F(MapExport, aRunWithoutMeshIsTold) {
+    EXPECT_THROW(exportMesh(folder_.string(), 2, path("cut.ply")), Error);
 }
 
 TEST_F(MapExport, namesThatAreTakenArePassedOver) {

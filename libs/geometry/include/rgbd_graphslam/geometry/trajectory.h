@@ -27,6 +27,10 @@ std::optional<SE3> poseAt(const Trajectory& trajectory, double stamp_s,
  *  \param stamps_s rising */
 bool anyBetween(const std::vector<double>& stamps_s, double from_s, double to_s);
 
+/** Consecutive pieces of these lengths, shorter where poses run out, and the rest as the last one.
+ */
+std::vector<Trajectory> pieces(const Trajectory& poses, const std::vector<std::size_t>& lengths);
+
 /** Reads `stamp tx ty tz qx qy qz qw` lines (seconds, metres, unit quaternion), the format of the
  *  TUM RGB-D benchmark; commas and tabs separate as blanks do, `#` starts a comment. Rows with NaN
  *  are left out as TUM's tools do.

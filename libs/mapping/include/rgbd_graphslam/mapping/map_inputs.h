@@ -36,6 +36,9 @@ struct MapInputs {
     std::vector<int> apart;
 };
 
+/** How many keyframes each earlier session has: paths are not drawn from one to the next. */
+std::vector<std::size_t> sessionLengths(const MapInputs& inputs);
+
 /** \throws Error when there is no keyframe, or something names one that is not there */
 void checkInputs(const MapInputs& inputs);
 

@@ -49,7 +49,9 @@ struct RunRecord {
     /** Camera poses in the map's frame, z up. */
     Trajectory trajectory, keyframes;
     Trajectory keyframes_before_loops;  // empty without loops
-    Trajectory truth;                   // empty where it is not known
+    /** Numbers of keyframes of earlier sessions; paths are not drawn from one to the next. */
+    std::vector<std::size_t> earlier_keyframes;
+    Trajectory truth;  // empty where it is not known
 
     /** Pictures as files hold them; empty where there are none. */
     std::string map_png, grid_png, keyframes_jpg;

@@ -1,4 +1,4 @@
-/** Charts as SVG elements that stand in an HTML page. */
+/** Charts as SVG elements that stand in an HTML page, or in a file of their own. */
 #pragma once
 #include <Eigen/Core>
 #include <string>
@@ -7,7 +7,10 @@
 
 namespace rgbd_graphslam {
 
-/** A line with a name. Colour and dashes are the page's matter, by the class. */
+/** How charts look, in CSS: plain enough for programs that are no browser. */
+extern const char* const chart_style;
+
+/** A line with a name. Its class gives colour and dashes. */
 struct ChartLine {
     std::string name;
     std::string css_class;
@@ -22,6 +25,9 @@ std::string planChart(const std::vector<ChartLine>& lines);
  *  \param marked spans (s) to shade, of any length */
 std::string timeChart(const std::vector<ChartLine>& lines, const std::string& quantity,
                       const std::vector<std::pair<double, double>>& marked = {});
+
+/** A chart as a file for browsers and picture viewers. \param chart of this header's functions */
+std::string svgFile(const std::string& chart);
 
 /** At most `most` points (at least 4) that keep the extremes of y: the lowest and the highest of
  *  equally many neighbours each, in order. */

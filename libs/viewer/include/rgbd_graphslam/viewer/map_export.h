@@ -7,7 +7,7 @@
 
 namespace rgbd_graphslam {
 
-enum class ExportFormat { Ply, Pcd, ColorOctree, BinaryOctree };
+enum class ExportFormat { Ply, Pcd, Mesh, ColorOctree, BinaryOctree };
 
 /** The ending of its files' names, with the dot. */
 const char* extensionOf(ExportFormat format);
@@ -21,6 +21,12 @@ std::string freeName(const std::filesystem::path& folder, const std::string& ste
  *  \param format Ply or Pcd
  *  \throws Error when there is no point, or the file cannot be written */
 void exportPoints(const Vertices& points, ExportFormat format, const std::string& path);
+
+/** The mesh of a run without the triangles that reach higher than `highest_m`.
+ *  \param folder of the run
+ *  \param path of a `.ply`
+ *  \throws Error when the run has none, nothing of it is left, or the file cannot be written */
+void exportMesh(const std::string& folder, double highest_m, const std::string& path);
 
 /** The octree of a run without the leaves whose centres are higher than `highest_m`.
  *  \param folder of the run

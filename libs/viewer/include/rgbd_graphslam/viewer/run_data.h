@@ -48,6 +48,8 @@ struct RunData {
     std::string folder;
     std::string rawlog;  // empty when it is gone
     Trajectory trajectory, keyframes, keyframes_before_loops;
+    /** Numbers of keyframes of earlier sessions; paths are not drawn from one to the next. */
+    std::vector<std::size_t> earlier_keyframes;
     /** In the estimate's world, at its stamps; empty where it is not known. */
     Trajectory truth;
     /** Stamps of frames without a pose, rising. */
