@@ -76,7 +76,7 @@ cv::Mat sharedDepth(const CObservation3DRangeScan& observation) {
 
 }  // namespace
 
-RgbdImage toRgbdImage(const CObservation3DRangeScan::Ptr& observation) {
+RgbdImage colorAndDepth(const CObservation3DRangeScan::Ptr& observation) {
     checkContents(*observation);
     checkNumbers(*observation);
     loadExternals(*observation);
@@ -89,12 +89,13 @@ RgbdImage toRgbdImage(const CObservation3DRangeScan::Ptr& observation) {
     if (pixels.size() != image.depth.size()) {
         refuse(*observation, "colour and depth differ in size");
     }
-    if (pixels.channels() == 1) {
-        image.grey = pixels;
-    } else {
-        image.color = pixels;
-        cv::cvtColor(pixels, image.grey, cv::COLOR_BGR2GRAY);
-    }
+    (pixels.channels() == 1 ? image.grey : image.color) = pixels;
+    return image;
+}
+
+RgbdImage toRgbdImage(const CObservation3DRangeScan::Ptr& observation) {
+    RgbdImage image = colorAndDepth(observation);
+    if (image.grey.empty()) cv::cvtColor(image.color, image.grey, cv::COLOR_BGR2GRAY);
     return image;
 }
 

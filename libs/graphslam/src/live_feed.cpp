@@ -9,11 +9,10 @@
 
 namespace rgbd_graphslam {
 namespace {
-
 using std::chrono::milliseconds;
-constexpr milliseconds frame_interval(150), keyframe_interval(60), map_interval(1000);
+constexpr milliseconds frame_interval(250), keyframe_interval(100), map_interval(1000);
 /** The map is sent so rarely that copying it takes less than this part of the time. */
-constexpr int least_map_pause = 200;
+constexpr int least_map_pause = 500;
 constexpr std::size_t most_statistics = 20000;
 
 FeatureState stateOf(FeatureView::State state) {
@@ -74,7 +73,7 @@ void LiveFeed::addStatistic(const TrackedFrame& tracked, double frame_ms) {
                            tracked.origin == FrameOrigin::Lost});
 }
 
-/** The images are reduced and compressed in the server's thread. */
+/** The images are reduced in the server's thread. */
 void LiveFeed::sendFrame(const StreamedFrame& frame, const TrackedFrame& tracked,
                          const GraphSlamSession& session) {
     LiveFrame message;
@@ -85,7 +84,7 @@ void LiveFeed::sendFrame(const StreamedFrame& frame, const TrackedFrame& tracked
     message.camera = cameraOf(*frame.observation);
     message.features = liveFeatures(session.slam(), message.camera);
     message.statistics = std::exchange(statistics_, {});
-    const RgbdImage image = toRgbdImage(frame.observation);
+    const RgbdImage image = colorAndDepth(frame.observation);
     server_->post([message = std::move(message), image]() mutable {
         putImages(image, message);
         return encode(std::move(message));
@@ -102,10 +101,8 @@ void LiveFeed::sendMap(const GraphSlamSession& session) {
     for (const KeyframeView& keyframe : session.slam().keyframes()) {
         map.keyframes.push_back({keyframe.stamp_s, T_base_cam * keyframe.T_world_cam});
     }
-    for (const PoseEdge& edge : session.slam().poseGraph().edges) {
-        if (edge.kind == EdgeKind::Loop) map.loops.emplace_back(edge.from, edge.to);
-        if (edge.kind == EdgeKind::Covisibility) map.covisibility.emplace_back(edge.from, edge.to);
-    }
+    for (const PoseEdge& edge : session.slam().loops()) map.loops.emplace_back(edge.from, edge.to);
+    map.covisibility = session.slam().covisibility();
     server_->post([map = std::move(map)] { return encode(map); });
 }
 

@@ -1,7 +1,5 @@
 /** Images of a frame, reduced to what a window shows. */
 #include <algorithm>
-#include <cstring>
-#include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
 #include "rgbd_graphslam/core/error.h"
@@ -10,48 +8,46 @@
 namespace rgbd_graphslam {
 namespace {
 
-constexpr int widest_px = 320, jpeg_quality = 80;
+constexpr int widest_px = 320;
 
+template <class Pixel>
 cv::Mat everyNth(const cv::Mat& image, int step) {
-    cv::Mat small((image.rows + step - 1) / step, (image.cols + step - 1) / step, image.type());
+    cv::Mat_<Pixel> small((image.rows + step - 1) / step, (image.cols + step - 1) / step);
     for (int y = 0; y < small.rows; ++y) {
-        for (int x = 0; x < small.cols; ++x) {
-            std::memcpy(small.ptr(y, x), image.ptr(y * step, x * step), image.elemSize());
+        const Pixel* from = image.ptr<Pixel>(y * step);
+        for (Pixel& pixel : cv::Mat_<Pixel>(small.row(y))) {
+            pixel = *from;
+            from += step;
         }
     }
     return small;
 }
 
-/** Of the images whose pixels are every n-th of the camera's. */
-Camera reduced(Camera camera, const cv::Size& size, int step) {
-    camera.width = size.width;
-    camera.height = size.height;
-    for (double* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *value /= step;
-    return camera;
+cv::Mat reducedColor(const RgbdImage& image, int step) {
+    if (!image.color.empty()) return everyNth<cv::Vec3b>(image.color, step);
+    cv::Mat color;
+    cv::cvtColor(everyNth<uchar>(image.grey, step), color, cv::COLOR_GRAY2BGR);
+    return color;
 }
 
 }  // namespace
 
 void putImages(const RgbdImage& image, LiveFrame& frame) {
-    frame.depth_step = std::max(1, (image.depth.cols + widest_px - 1) / widest_px);
+    frame.step = std::max(1, (image.depth.cols + widest_px - 1) / widest_px);
     frame.depth_unit_m = image.depth_unit_m;
-    frame.depth = everyNth(image.depth, frame.depth_step);
-    cv::imencode(".jpg", everyNth(image.color, frame.depth_step), frame.color_jpeg,
-                 {cv::IMWRITE_JPEG_QUALITY, jpeg_quality});
+    frame.depth = everyNth<std::uint16_t>(image.depth, frame.step);
+    frame.color = reducedColor(image, frame.step);
 }
 
-LiveImages imagesOf(const LiveFrame& frame) {
-    LiveImages images;
-    if (!frame.color_jpeg.empty()) {
-        images.color = cv::imdecode(frame.color_jpeg, cv::IMREAD_COLOR);
-    }
-    images.depth = frame.depth;
-    if (images.color.empty() || images.color.size() != images.depth.size() ||
-        frame.depth_step < 1) {
+Camera imageCamera(const LiveFrame& frame) {
+    if (frame.color.empty() || frame.color.size() != frame.depth.size() || frame.step < 1) {
         throw Error("a live message has no usable images");
     }
-    images.camera = reduced(frame.camera, images.depth.size(), frame.depth_step);
-    return images;
+    Camera camera = frame.camera;
+    camera.width = frame.color.cols;
+    camera.height = frame.color.rows;
+    for (double* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *value /= frame.step;
+    return camera;
 }
 
 }  // namespace rgbd_graphslam

@@ -1,7 +1,9 @@
 /** Messages as bytes. */
 #include "rgbd_graphslam/live/live_messages.h"
 
+#include <algorithm>
 #include <cstring>
+#include <string_view>
 #include <type_traits>
 
 #include "rgbd_graphslam/core/byte_stream.h"
@@ -10,6 +12,8 @@
 namespace rgbd_graphslam {
 namespace {
 
+/** Of a frame with two images: a text that grows would be copied some ten times. */
+constexpr std::size_t least_bytes = std::size_t{1} << 19;
 constexpr std::uint8_t frame_tag = 1, map_tag = 2;
 constexpr std::size_t pose_bytes = 12 * sizeof(double), edge_bytes = 2 * sizeof(std::int32_t),
                       feature_bytes = 9, statistic_bytes = 17;
@@ -86,22 +90,26 @@ std::vector<LiveStatistic> getStatistics(ByteReader& in) {
 }
 
 /** All pixels at once: one by one they would take longer than all the rest. */
-void putDepth(ByteWriter& out, const cv::Mat& image) {
-    const cv::Mat depth = image.isContinuous() ? image : image.clone();
-    out.put<std::int32_t>(depth.cols);
-    out.putText({reinterpret_cast<const char*>(depth.data), 2 * depth.total()});
+void putImage(ByteWriter& out, const cv::Mat& image) {
+    const cv::Mat whole = image.isContinuous() ? image : image.clone();
+    const std::size_t bytes = whole.total() * whole.elemSize();
+    out.put<std::int32_t>(whole.cols);
+    out.putCount(bytes);
+    out.putBytes({reinterpret_cast<const char*>(whole.data), bytes});
 }
 
-cv::Mat getDepth(ByteReader& in) {
+cv::Mat getImage(ByteReader& in, int type) {
     const int columns = in.get<std::int32_t>();
-    const std::string bytes = in.getText();
+    const std::size_t size = in.getCount(1);
+    const std::string_view bytes = in.getBytes(size);
     if (bytes.empty()) return {};
-    if (columns <= 0 || bytes.size() % (2 * static_cast<std::size_t>(columns)) != 0) {
-        throw DamagedBytes("a live message has a depth image of no shape");
+    const std::size_t row = CV_ELEM_SIZE(type) * static_cast<std::size_t>(std::max(columns, 0));
+    if (row == 0 || bytes.size() % row != 0) {
+        throw DamagedBytes("a live message has an image of no shape");
     }
-    cv::Mat depth(static_cast<int>(bytes.size() / 2) / columns, columns, CV_16UC1);
-    std::memcpy(depth.data, bytes.data(), bytes.size());
-    return depth;
+    cv::Mat image(static_cast<int>(bytes.size() / row), columns, type);
+    std::memcpy(image.data, bytes.data(), bytes.size());
+    return image;
 }
 
 void put(ByteWriter& out, const Camera& camera) {
@@ -126,10 +134,10 @@ void put(ByteWriter& out, const LiveFrame& frame) {
     put(out, frame.camera);
     put(out, frame.features);
     put(out, frame.statistics);
-    out.putText({frame.color_jpeg.begin(), frame.color_jpeg.end()});
-    out.put<std::int32_t>(frame.depth_step);
+    out.put<std::int32_t>(frame.step);
     out.put(frame.depth_unit_m);
-    putDepth(out, frame.depth);
+    putImage(out, frame.color);
+    putImage(out, frame.depth);
 }
 
 LiveFrame getFrame(ByteReader& in) {
@@ -141,11 +149,10 @@ LiveFrame getFrame(ByteReader& in) {
     frame.camera = getCamera(in);
     frame.features = getFeatures(in);
     frame.statistics = getStatistics(in);
-    const std::string jpeg = in.getText();
-    frame.color_jpeg.assign(jpeg.begin(), jpeg.end());
-    frame.depth_step = in.get<std::int32_t>();
+    frame.step = in.get<std::int32_t>();
     frame.depth_unit_m = in.get<double>();
-    frame.depth = getDepth(in);
+    frame.color = getImage(in, CV_8UC3);
+    frame.depth = getImage(in, CV_16UC1);
     return frame;
 }
 
@@ -201,6 +208,7 @@ LiveMessage getMessage(ByteReader& in) {
 
 std::string encode(const LiveMessage& message) {
     ByteWriter out;
+    out.reserve(least_bytes);
     std::visit([&](const auto& content) { put(out, content); }, message);
     return out.take();
 }

@@ -17,7 +17,7 @@
 namespace rgbd_graphslam {
 namespace {
 
-constexpr std::uint32_t magic = 0x324c4752;  // "RGL2"
+constexpr std::uint32_t magic = 0x334c4752;  // "RGL3"
 constexpr std::size_t largest_message = std::size_t{256} << 20, chunk_bytes = 1 << 16;
 
 struct Header {
@@ -46,9 +46,9 @@ int newSocket() {
     return ::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
 }
 
-std::string framed(const std::string& message) {
+std::string framed(std::string message) {
     const Header header{magic, static_cast<std::uint32_t>(message.size())};
-    return std::string(reinterpret_cast<const char*>(&header), sizeof(header)) + message;
+    return message.insert(0, reinterpret_cast<const char*>(&header), sizeof(header));
 }
 
 }  // namespace

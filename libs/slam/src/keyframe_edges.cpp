@@ -57,15 +57,22 @@ PoseEdge KeyframeEdges::odometry(int keyframe) const {
     return edge;
 }
 
+/** Keyframes before the last one that see the same as `keyframe`. */
+std::vector<Covisibility> KeyframeEdges::fartherThanLast(int keyframe) const {
+    const bool follows = map_.keyframe(keyframe).link == Link::Tracked;
+    auto farther = map_.covisible(keyframe, follows ? strong_covisibility : fewest_that_tie);
+    const auto too_near = [&](const Covisibility& c) { return c.keyframe >= keyframe - 1; };
+    farther.erase(std::remove_if(farther.begin(), farther.end(), too_near), farther.end());
+    return farther;
+}
+
 /** From keyframes before the last one. Where tracking ties a keyframe to the last one, its odometry
  *  tells what they are worth. */
 std::vector<PoseEdge> KeyframeEdges::covisibility(const PoseEdge& odometry) const {
     const int keyframe = odometry.to;
     const bool follows = map_.keyframe(keyframe).link == Link::Tracked;
     std::vector<PoseEdge> edges;
-    for (const Covisibility& c :
-         map_.covisible(keyframe, follows ? strong_covisibility : fewest_that_tie)) {
-        if (c.keyframe >= odometry.from) continue;
+    for (const Covisibility& c : fartherThanLast(keyframe)) {
         PoseEdge edge = odometry;
         if (!follows) {
             edge.information = informationOf(keyframe, sharedLandmarks(keyframe, c.keyframe));
@@ -92,6 +99,15 @@ PoseGraph KeyframeEdges::graph(const std::vector<PoseEdge>& loops) const {
     }
     graph.edges.insert(graph.edges.end(), loops.begin(), loops.end());
     return graph;
+}
+
+std::vector<std::pair<int, int>> KeyframeEdges::covisiblePairs() const {
+    std::vector<std::pair<int, int>> pairs;
+    const int keyframes = static_cast<int>(map_.keyframes().size());
+    for (int k = std::max(1, map_.heldCount()); k < keyframes; ++k) {
+        for (const Covisibility& c : fartherThanLast(k)) pairs.emplace_back(c.keyframe, k);
+    }
+    return pairs;
 }
 
 }  // namespace rgbd_graphslam

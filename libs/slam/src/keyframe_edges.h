@@ -1,5 +1,6 @@
 /** Relative poses of keyframes as the map measures them. */
 #pragma once
+#include <utility>
 #include <vector>
 
 #include "rgbd_graphslam/geometry/camera.h"
@@ -24,7 +25,11 @@ class KeyframeEdges {
      *  after them. */
     PoseGraph graph(const std::vector<PoseEdge>& loops) const;
 
+    /** The ends of the graph's edges of covisibility, without what measuring them costs. */
+    std::vector<std::pair<int, int>> covisiblePairs() const;
+
   private:
+    std::vector<Covisibility> fartherThanLast(int keyframe) const;
     std::vector<PoseEdge> covisibility(const PoseEdge& odometry) const;
     std::vector<int> sharedLandmarks(int keyframe, int other) const;
     Matrix6d informationOf(int keyframe, const std::vector<int>& landmarks) const;

@@ -62,6 +62,10 @@ PoseGraph VisualSlam::poseGraph() const {
     return impl_->edges.graph(impl_->closer.loops());
 }
 
+std::vector<std::pair<int, int>> VisualSlam::covisibility() const {
+    return impl_->edges.covisiblePairs();
+}
+
 void VisualSlam::correct(const std::vector<SE3>& T_world_keyframe) {
     impl_->handOver();
     bool closed = false;

@@ -7,8 +7,8 @@
 namespace rgbd_graphslam {
 namespace {
 
-/** A move that cannot be seen. */
-constexpr double least_move_m = 0.002, least_turn_rad = 0.0005;
+/** A move that can be seen: a pixel, from where a run is followed. */
+constexpr double least_move_m = 0.005, least_turn_rad = 0.001;
 
 bool hasMoved(const SE3& a, const SE3& b) {
     return (a.t - b.t).norm() > least_move_m || (a.inverse() * b).angle() > least_turn_rad;
@@ -69,14 +69,13 @@ void LiveRun::takeFrame(const LiveFrame& frame) {
     }
     if (!frame.lost) run_.trajectory.push_back({frame.stamp_s, frame.T_world_cam});
     if (frame.keyframe < 0) return;
-    const LiveImages images = imagesOf(frame);
+    const Camera camera = imageCamera(frame);
     const auto id = static_cast<std::size_t>(frame.keyframe);
     if (clouds_.size() <= id) clouds_.resize(id + 1);
-    clouds_[id] =
-        Cloud{keyframePoints(images.color, images.depth, frame.depth_unit_m, images.camera),
-              frame.T_world_cam,
-              {},
-              false};
+    clouds_[id] = Cloud{keyframePoints(frame.color, frame.depth, frame.depth_unit_m, camera),
+                        frame.T_world_cam,
+                        {},
+                        false};
 }
 
 void LiveRun::takeMap(const LiveMap& map) {

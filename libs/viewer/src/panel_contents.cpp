@@ -75,10 +75,9 @@ void showRunPlots(PlotPanel& panel, const RunScene& scene) {
 }
 
 void showLiveFrame(PicturePanel& panel, const LiveFrame& frame) {
-    const LiveImages images = imagesOf(frame);
-    panel.color().show(images.color, "");
+    panel.color().show(frame.color, "");
     panel.color().mark(marksOf(frame));
-    panel.depth().show(paintedDepth(images.depth, frame.depth_unit_m), "");
+    panel.depth().show(paintedDepth(frame.depth, frame.depth_unit_m), "");
     panel.say(formatted("%ld tracked, %ld new, %ld lost", count(frame, FeatureState::Tracked),
                         count(frame, FeatureState::New), count(frame, FeatureState::Lost)));
 }

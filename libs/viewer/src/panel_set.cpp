@@ -67,6 +67,11 @@ void PanelSet::toggle(nanogui::Window& panel) {
     window_.moveWindowToFront(&panel);
 }
 
+std::vector<nanogui::Widget*> PanelSet::liveWidgets() {
+    return {&pictures_->label(), &pictures_->color(), &pictures_->depth(), &plots_->landmarks(),
+            &plots_->times(),    &plots_->errors(),   &time_->news()};
+}
+
 Eigen::Vector2d PanelSet::freeShare() const {
     const double x =
         std::max(covered(*view_, view_->width()), covered(*pictures_, pictures_->width()));

@@ -22,6 +22,10 @@ class PanelSet {
     void toggle();
     /** Opens or closes one of those that stand in the middle. */
     void toggle(nanogui::Window& panel);
+    /** Whether one of these is open. */
+    bool middleIsOpen() const { return help_->visible() || files_->visible(); }
+    /** Those that show something else with every frame of a running SLAM. */
+    std::vector<nanogui::Widget*> liveWidgets();
     /** Share of the window's width and height that the panels leave free round its centre. */
     Eigen::Vector2d freeShare() const;
     /** Which are to be open. */

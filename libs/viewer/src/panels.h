@@ -45,6 +45,7 @@ class PicturePanel : public nanogui::Window {
 
     PictureWidget& color() { return *color_; }
     PictureWidget& depth() { return *depth_; }
+    nanogui::Label& label() { return *label_; }
     void say(const std::string& text) { label_->setCaption(text); }
     /** Only live frames have features. */
     void setLive(bool live);
@@ -82,6 +83,7 @@ class TimePanel : public nanogui::Window {
 
     void fitInto(int width_px);
     void show(float share, bool playing, const std::string& time);
+    nanogui::Label& news() { return *news_; }
     void say(const std::string& text) { news_->setCaption(text); }
     /** A live run has no time to choose. */
     void setReplayVisible(bool visible);

@@ -49,17 +49,26 @@ nanogui::ref<ViewerWindow> makeWindow(const ViewerSettings& settings, const std:
     }
 }
 
-/** Beside a running SLAM the viewer takes only time that is left over. */
+/** Of a viewer beside a running SLAM: a second thread of Mesa's software renderer gains little. */
+void drawWithOneThread() {
+    ::setenv("LP_NUM_THREADS", "1", 0);
+}
+
+/** From now on the viewer takes only time that is left over. On Linux each thread has a priority
+ *  of its own. */
 void stepBack() {
     constexpr int lowest_priority = 19;
-    ::setpriority(PRIO_PROCESS, 0, lowest_priority);
     const sched_param none{};
-    ::sched_setscheduler(0, SCHED_IDLE, &none);  // makes room at once when another process wakes up
+    std::error_code gone;  // a thread may end meanwhile
+    for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task", gone)) {
+        const int id = std::stoi(thread.path().filename());
+        ::setpriority(PRIO_PROCESS, static_cast<id_t>(id), lowest_priority);
+        ::sched_setscheduler(id, SCHED_IDLE, &none);  // makes room at once when another wakes up
+    }
     // Linux weighs whole sessions against each other first. One that is shared with rgbd-slam must
     // not be slowed, so this needs a session of its own.
     if (::getsid(0) == ::getpid() || ::setsid() > 0)
         std::ofstream("/proc/self/autogroup") << lowest_priority;
-    ::setenv("LP_NUM_THREADS", "1", 0);  // of Mesa's software renderer
 }
 
 void reportSpeed(ViewerWindow& window, double seconds) {
@@ -72,11 +81,17 @@ void reportSpeed(ViewerWindow& window, double seconds) {
 }
 
 void runUntilClosed(ViewerWindow& window, const ViewerJob& job) {
+    bool stands_back = !job.follow;
     while (!glfwWindowShouldClose(window.glfwWindow())) {
         const double wait_s = window.update();
         if (window.settled() && job.benchmark_s > 0) return reportSpeed(window, job.benchmark_s);
         if (window.settled() && !job.screenshot.empty())
             return window.saveScreenshot(job.screenshot);
+        // Not before: on a busy machine the window would take a minute to come up.
+        if (!stands_back && window.showsRun()) {
+            stepBack();
+            stands_back = true;
+        }
         glfwWaitEventsTimeout(wait_s);
     }
 }
@@ -85,7 +100,7 @@ void runUntilClosed(ViewerWindow& window, const ViewerJob& job) {
 
 void runViewer(const ViewerJob& job) {
     const auto start = std::filesystem::file_time_type::clock::now();
-    if (job.follow) stepBack();
+    if (job.follow) drawWithOneThread();
     const Glfw glfw;
     RunData run;
     if (!job.follow) run = loadRun(job.path);

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double first_distance_m = 7, first_elevation_rad = 0.8;
 /** Of one processor, since the run may need it. The mouse is not held up by this. */
-constexpr double live_cpu_share = 0.04;
+constexpr double live_cpu_share = 0.02;
 
 }  // namespace
 
@@ -45,8 +45,10 @@ void ViewerWindow::showLive() {
     showLiveFrame(panels_->pictures(), frame);
     showLivePlots(panels_->plots(), live_->statistics());
     const RunData& run = live_->run();
-    say(formatted("%s at %.2f s, %zu keyframes, %zu loops", frame.lost ? "LOST" : "tracking",
+    panels_->time().say(
+        formatted("%s at %.2f s, %zu keyframes, %zu loops", frame.lost ? "LOST" : "tracking",
                   frame.stamp_s - timeSpan(run).first, run.keyframes.size(), run.loops.size()));
+    live_panels_changed_ = true;
     sceneChanged();
 }
 

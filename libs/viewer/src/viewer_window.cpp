@@ -15,8 +15,9 @@ namespace rgbd_graphslam {
 namespace {
 
 constexpr double busy_wait_s = 0.001, reading_wait_s = 0.05, idle_wait_s = 1;
-/** Of a picture while the view moves, and what the scene gets of it at least. */
-constexpr double picture_time_s = 0.042, least_scene_time_s = 0.01;
+/** Of a picture while the view moves, what the scene gets of it at least, and what the scene of a
+ *  running SLAM gets. */
+constexpr double picture_time_s = 0.042, least_scene_time_s = 0.01, live_scene_time_s = 0.015;
 
 }  // namespace
 
@@ -89,6 +90,7 @@ double ViewerWindow::update() {
     if (panels_changed_ || picture_changed_) {
         drawAll();
         live_budget_.spent(Clock::now(), processCpuSeconds());
+        shows_run_ = !live_ || live_->lastFrame();
     }
     if (live_) return reading_wait_s;
     if (replay_.playing() || !renderer_->complete()) return busy_wait_s;
@@ -110,12 +112,28 @@ void ViewerWindow::drawPanels() {
     drawWidgets();
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     last_drawn_interaction_ = mLastInteraction;
-    panels_changed_ = false;
+    panels_changed_ = live_panels_changed_ = false;
+}
+
+/** Of a running SLAM, over the panels as they are. Without a graphics card all panels anew would
+ *  take as long as the scene. */
+void ViewerWindow::drawLivePanels() {
+    if (panels_->middleIsOpen()) return drawPanels();  // and may lie over them
+    panel_layer_->bind();
+    nvgBeginFrame(mNVGContext, static_cast<float>(width()), static_cast<float>(height()),
+                  mPixelRatio);
+    for (nanogui::Widget* widget : panels_->liveWidgets()) {
+        if (widget->visibleRecursive()) drawOver(mNVGContext, *widget, theme()->mWindowFillFocused);
+    }
+    nvgEndFrame(mNVGContext);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    live_panels_changed_ = false;
 }
 
 /** Draws to the back buffer. */
 void ViewerWindow::compose() {
     if (panels_changed_) drawPanels();
+    if (live_panels_changed_) drawLivePanels();
     picture_changed_ = false;
     renderer_->copyToWindow();
     const float scale = pixelRatio();
@@ -146,7 +164,8 @@ SceneView ViewerWindow::sceneView() {
     SceneView view = scene_->viewAt(replay_.now(), settings_);
     view.camera = camera_;
     view.size_px = mFBSize;
-    view.time_s = std::max(least_scene_time_s, picture_time_s - compose_s_);
+    view.time_s =
+        live_ ? live_scene_time_s : std::max(least_scene_time_s, picture_time_s - compose_s_);
     return view;
 }
 

@@ -41,6 +41,9 @@ class ViewerWindow : public nanogui::Screen {
     /** Whether everything is read and the picture is complete. */
     bool settled() const;
 
+    /** Whether a frame of the run that is followed has been on the screen, or its result. */
+    bool showsRun() const { return shows_run_; }
+
     /** Writes the window as it is to a PNG. \throws Error when it cannot be written */
     void saveScreenshot(const std::string& path);
     /** Draws the view from all sides as fast as it can. \return pictures a second */
@@ -65,6 +68,7 @@ class ViewerWindow : public nanogui::Screen {
     void drawAll() override;
     void compose();
     void drawPanels();
+    void drawLivePanels();
     void styleTheme();
     SceneView sceneView();
     void takeRecording();
@@ -115,7 +119,9 @@ class ViewerWindow : public nanogui::Screen {
     bool all_read_ = true;
     std::unique_ptr<LiveRun> live_;  // while a run is followed
     std::string live_folder_;
-    bool live_is_new_ = false;  // something to show has come
+    bool live_is_new_ = false;          // something to show has come
+    bool live_panels_changed_ = false;  // what panels show of the run
+    bool shows_run_ = false;
     CpuBudget live_budget_{1, 0};
 
     OrbitCamera camera_;

@@ -44,6 +44,19 @@ void write(NVGcontext* context, float x, float y, int align, const std::string& 
 
 }  // namespace
 
+void drawOver(NVGcontext* context, nanogui::Widget& widget, const nanogui::Color& background) {
+    const nanogui::Vector2i origin = widget.parent()->absolutePosition();
+    nvgSave(context);
+    nvgTranslate(context, static_cast<float>(origin.x()), static_cast<float>(origin.y()));
+    nvgScissor(context, static_cast<float>(widget.position().x()),
+               static_cast<float>(widget.position().y()), static_cast<float>(widget.width()),
+               static_cast<float>(widget.height()));
+    const bool is_transparent = dynamic_cast<nanogui::Label*>(&widget) != nullptr;
+    if (is_transparent) fillRectangle(context, widget.position(), widget.size(), background);
+    widget.draw(context);
+    nvgRestore(context);
+}
+
 PictureWidget::PictureWidget(nanogui::Widget* parent, const nanogui::Vector2i& size_px)
     : nanogui::Widget(parent), wanted_px_(size_px) {}
 

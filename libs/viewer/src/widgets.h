@@ -11,6 +11,10 @@
 
 namespace rgbd_graphslam {
 
+/** Draws a widget again over what is there, outside of its window's turn.
+ *  \param background of labels, which are transparent */
+void drawOver(NVGcontext* context, nanogui::Widget& widget, const nanogui::Color& background);
+
 /** An image with marks. */
 class PictureWidget : public nanogui::Widget {
   public:

@@ -61,26 +61,39 @@ TEST(LiveMessages, framesArriveAsTheyWereSent) {
 }
 
 TEST(LiveMessages, imagesAreEveryOtherPixel) {
-    const LiveImages images = imagesOf(std::get<LiveFrame>(decode(encode(someFrame()))));
-    EXPECT_EQ(images.depth.size(), cv::Size(320, 240));
-    EXPECT_EQ(images.depth.at<std::uint16_t>(100, 50), 1000 + 10 * 200 + 100);
-    EXPECT_NEAR(images.color.at<cv::Vec3b>(120, 160)[0], 127, 8);
+    const auto frame = std::get<LiveFrame>(decode(encode(someFrame())));
+    EXPECT_EQ(frame.depth.size(), cv::Size(320, 240));
+    EXPECT_EQ(frame.depth.at<std::uint16_t>(100, 50), 1000 + 10 * 200 + 100);
+    EXPECT_EQ(frame.color.at<cv::Vec3b>(120, 160), cv::Vec3b(127, 127, 90));
     // A ray through the same place of the world.
-    EXPECT_DOUBLE_EQ(images.camera.unproject(50, 100, 1).x(), Camera().unproject(100, 200, 1).x());
-    EXPECT_EQ(images.camera.width, 320);
+    const Camera camera = imageCamera(frame);
+    EXPECT_DOUBLE_EQ(camera.unproject(50, 100, 1).x(), Camera().unproject(100, 200, 1).x());
+    EXPECT_EQ(camera.width, 320);
 }
 
 TEST(LiveMessages, smallImagesKeepEveryPixel) {
     LiveFrame frame;
     putImages(smoothImage(160, 120), frame);
-    EXPECT_EQ(frame.depth_step, 1);
-    EXPECT_EQ(imagesOf(frame).depth.size(), cv::Size(160, 120));
+    EXPECT_EQ(frame.step, 1);
+    EXPECT_EQ(frame.depth.size(), cv::Size(160, 120));
+    EXPECT_EQ(imageCamera(frame).fx, Camera().fx);
+}
+
+TEST(LiveMessages, aGreyCameraHasGreyImages) {
+    RgbdImage image = smoothImage(640, 480);
+    image.grey = cv::Mat(480, 640, CV_8UC1, cv::Scalar(77));
+    image.color.release();
+    LiveFrame sent;
+    putImages(image, sent);
+    const auto frame = std::get<LiveFrame>(decode(encode(sent)));
+    EXPECT_EQ(imageCamera(frame).width, 320);
+    EXPECT_EQ(frame.color.at<cv::Vec3b>(239, 319), cv::Vec3b(77, 77, 77));
 }
 
 TEST(LiveMessages, aFrameWithoutImagesIsAFrame) {
     const auto frame = std::get<LiveFrame>(decode(encode(LiveFrame())));
     EXPECT_TRUE(frame.depth.empty());
-    EXPECT_THROW(imagesOf(frame), Error);
+    EXPECT_THROW(imageCamera(frame), Error);
 }
 
 TEST(LiveMessages, mapsArriveAsTheyWereSent) {

@@ -265,6 +265,22 @@ TEST(VisualSlam, localisesInAMapThatStaysWhereItIs) {
     }
 }
 
+std::vector<std::pair<int, int>> covisibleEnds(const PoseGraph& graph) {
+    std::vector<std::pair<int, int>> pairs;
+    for (const PoseEdge& edge : graph.edges) {
+        if (edge.kind == EdgeKind::Covisibility) pairs.emplace_back(edge.from, edge.to);
+    }
+    return pairs;
+}
+
+TEST(VisualSlam, tellsWhatItsGraphConnectsWithoutMakingIt) {
+    MappedWorld mapped;
+    VisualSlam slam(SlamOptions{}, mapped.camera, mapped.map, MapUse::Extend);
+    localisedOnTheCircle(mapped, 60, slam);
+    EXPECT_GT(slam.covisibility().size(), 3u);
+    EXPECT_EQ(slam.covisibility(), covisibleEnds(slam.poseGraph()));
+}
+
 TEST(VisualSlam, keepsFewOfItsOwnKeyframesWhereItLocalises) {
     MappedWorld mapped;
     SlamOptions options;

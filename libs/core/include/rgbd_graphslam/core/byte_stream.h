@@ -27,6 +27,8 @@ class DamagedBytes : public Error {
 
 class ByteWriter {
   public:
+    void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
+
     template <class Number>
     void put(Number number) {
         static_assert(std::is_arithmetic_v<Number>);

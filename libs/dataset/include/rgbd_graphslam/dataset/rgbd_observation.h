@@ -20,6 +20,10 @@ inline constexpr const char* ground_truth_label = "GROUND_TRUTH";
  *          size, when ranges are not depths along the optical axis, or as cameraOf() */
 RgbdImage toRgbdImage(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
 
+/** The same without a grey image that is made: there is one only where the camera is grey, and then
+ *  no colour image. */
+RgbdImage colorAndDepth(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
+
 /** Calibration of the colour camera.
  *  \throws Error naming the stamp when it is none, or of a lens whose distortion cannot be undone
  */

@@ -40,10 +40,10 @@ struct LiveFrame {
     std::vector<LiveFeature> features;
     /** Of all frames since the last message, this one included. */
     std::vector<LiveStatistic> statistics;
-    std::vector<unsigned char> color_jpeg;
-    /** CV_16UC1, every n-th pixel of every n-th row, from the first on. */
-    cv::Mat depth;
-    int depth_step = 1;
+    /** CV_8UC3 (BGR) and CV_16UC1: every n-th pixel of every n-th row, from the first on. As they
+     *  are, since packing them would cost SLAM more than sending them. */
+    cv::Mat color, depth;
+    int step = 1;
     double depth_unit_m = 0.001;
 };
 
@@ -55,17 +55,13 @@ struct LiveMap {
 
 using LiveMessage = std::variant<LiveFrame, LiveMap>;
 
-/** Reduces the images of a frame into the message: colour to a JPEG and depth to every n-th pixel,
- *  320 columns at most. */
+/** Reduces the images of a frame into the message, to 320 columns at most; of a grey camera the
+ *  three colours are the same. */
 void putImages(const RgbdImage& image, LiveFrame& frame);
 
-/** Colour and depth at the pixels that both have, and the camera of these images.
- *  \throws Error when the message holds no usable images */
-struct LiveImages {
-    cv::Mat color, depth;
-    Camera camera;
-};
-LiveImages imagesOf(const LiveFrame& frame);
+/** The camera of the images in the message.
+ *  \throws Error when it holds no two images of one size */
+Camera imageCamera(const LiveFrame& frame);
 
 /** For machines of one kind: both ends run on the same one. */
 std::string encode(const LiveMessage& message);

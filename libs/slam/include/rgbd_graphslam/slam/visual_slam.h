@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rgbd_graphslam/features/frame.h"
@@ -113,6 +114,10 @@ class VisualSlam {
 
     /** Present poses of all keyframes and the edges between them: odometry, covisibility, loops. */
     PoseGraph poseGraph() const;
+
+    /** Which keyframes the graph's edges of covisibility connect, the earlier first; much cheaper
+     *  than the graph. */
+    std::vector<std::pair<int, int>> covisibility() const;
 
     /** Moves keyframes to new poses, landmarks with them, fuses what the loop brought together.
      *  \param T_world_keyframe one pose a keyframe */
