@@ -53,8 +53,11 @@ mrpt::opengl::CSetOfLines::Ptr trajectoryLines(const MapInputs& inputs) {
 
 mrpt::opengl::CSetOfLines::Ptr linesBeforeLoops(const MapInputs& inputs) {
     auto object = lines(scene_names::graph_before_loops, before_color, 2);
-    for (const Trajectory& session : pieces(inputs.keyframes_before_loops, sessionLengths(inputs)))
-        addPath(*object, session, inputs.unplaced_s);
+    const auto sessions = pieces(inputs.keyframes_before_loops, sessionLengths(inputs));
+    for (const Trajectory& session : sessions) {
+        const bool is_latest = &session == &sessions.back();  // unplaced frames are of that one
+        addPath(*object, session, is_latest ? inputs.unplaced_s : std::vector<double>());
+    }
     return object;
 }
 

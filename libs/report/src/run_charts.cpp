@@ -49,14 +49,18 @@ std::vector<ChartLine> pathPieces(const RunRecord& run, const std::string& name,
     return withoutGaps(pathOf(name, css_class, poses), seconds, lostSpans(run.frames));
 }
 
-/** Keyframes of all sessions, with no line from one session to the next. */
+/** Keyframes of all sessions, with no line from one session to the next. Where frames of earlier
+ *  ones were lost is not known. */
 void addSessions(std::vector<ChartLine>& lines, const RunRecord& run, std::string name,
                  const std::string& css_class, const Trajectory& keyframes) {
-    for (const Trajectory& session : pieces(keyframes, run.earlier_keyframes)) {
-        if (session.empty()) continue;
-        const auto drawn = pathPieces(run, std::exchange(name, {}), css_class, session);
-        lines.insert(lines.end(), drawn.begin(), drawn.end());
+    auto sessions = pieces(keyframes, run.earlier_keyframes);
+    const Trajectory latest = std::move(sessions.back());
+    sessions.pop_back();
+    for (const Trajectory& session : sessions) {
+        lines.push_back(pathOf(std::exchange(name, {}), css_class, session));
     }
+    const auto drawn = pathPieces(run, name, css_class, latest);
+    lines.insert(lines.end(), drawn.begin(), drawn.end());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/report/html.h"
@@ -98,10 +99,15 @@ std::string element(int height_px, const std::string& content) {
            "</svg>\n";
 }
 
+/** Without lines of one point or none, whose name goes to the next one of the same class. */
 std::vector<ChartLine> drawable(const std::vector<ChartLine>& lines) {
     std::vector<ChartLine> some;
+    ChartLine nameless;
     for (const ChartLine& line : lines) {
-        if (line.points.size() > 1) some.push_back(line);
+        if (line.css_class != nameless.css_class || !line.name.empty()) nameless = line;
+        if (line.points.size() < 2) continue;
+        some.push_back(line);
+        some.back().name = std::exchange(nameless.name, {});
     }
     return some;
 }

@@ -65,8 +65,11 @@ void RunScene::showPoses() {
     renderer_.geometry().setLines(Part::Covisibility,
                                   edgeLines(run_.keyframes, run_.covisibility, covisibility_color));
     Vertices before;
-    for (const Trajectory& session : pieces(run_.keyframes_before_loops, run_.earlier_keyframes)) {
-        const Vertices lines = pathLines(session, run_.unplaced_s, before_color);
+    const auto sessions = pieces(run_.keyframes_before_loops, run_.earlier_keyframes);
+    for (const Trajectory& session : sessions) {
+        const bool is_latest = &session == &sessions.back();  // unplaced frames are of that one
+        const Vertices lines =
+            pathLines(session, is_latest ? run_.unplaced_s : std::vector<double>(), before_color);
         before.insert(before.end(), lines.begin(), lines.end());
     }
     renderer_.geometry().setLines(Part::BeforeLoops, before);

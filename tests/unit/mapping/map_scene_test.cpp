@@ -43,6 +43,8 @@ TEST(MapScene, pathsAreNotDrawnFromOneSessionToTheNext) {
     EXPECT_EQ(linesOf(makeScene(inputs, {}, Camera()), scene_names::graph_before_loops), 3u);
     inputs.earlier = {{"first.rawlog", 2}};
     EXPECT_EQ(linesOf(makeScene(inputs, {}, Camera()), scene_names::graph_before_loops), 2u);
+    inputs.unplaced_s = {0.5, 2.5};  // of the second session
+    EXPECT_EQ(linesOf(makeScene(inputs, {}, Camera()), scene_names::graph_before_loops), 1u);
 }
 
 }  // namespace

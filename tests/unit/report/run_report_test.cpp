@@ -76,6 +76,15 @@ TEST(RunReport, drawsNothingFromOneSessionToTheNext) {
     EXPECT_EQ(pieces("[{\"rawlog\": \"a.rawlog\", \"keyframes\": 3}]"), 2);
 }
 
+TEST(RunReport, namesItsLinesWhereTheFirstPieceIsAPoint) {
+    MadeRun run;
+    run.first_lost = 1;
+    run.end_lost = 4;
+    const std::string page = reportOf(run);
+    EXPECT_THAT(page, HasSubstr(">estimate</text>"));
+    EXPECT_THAT(page, HasSubstr(">keyframes with loops</text>"));
+}
+
 TEST(RunReport, drawsNothingAcrossLostFrames) {
     const std::regex estimate("<polyline class=\"estimate\"");
     const auto pieces = [&](const MadeRun& run) {
