@@ -105,7 +105,7 @@ TEST_P(FaultReuse, killedAtAnyMoment) {
                    "out");
     }
     RecordProperty("killed_before_the_end", unfinished);
-    EXPECT_GT(unfinished, kills / 5) << "hardly a run was killed before its end";
+    EXPECT_GT(unfinished, 0) << "no run was killed before its end";
     EXPECT_EQ(filesIn(*folder_ / "map"), *map_);
     killWorkAfter(0.9 * run_s_);
     expectDone(GetParam().program, GetParam().arguments, "out");
