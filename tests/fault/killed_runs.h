@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -36,6 +37,19 @@ inline void killAfter(double delay_s, const std::string& program, const std::str
     shell("'" RGBD_BINARY_DIR "/bin/" + program + "' " + arguments + " >/dev/null 2>&1 & sleep " +
           std::to_string(delay_s) + "; kill -KILL $! 2>/dev/null; wait $!");
 }
+
+/** Moments at which to kill a run that takes some seconds. */
+class KillMoments {
+  public:
+    explicit KillMoments(double run_s) : run_s_(run_s) {}
+    double next() { return run_s_ * static_cast<double>(random_() % 1000) / 1000; }
+    /** A run that was finished before: the machine has less to do than when it was timed. */
+    void cameTooLate() { run_s_ *= 0.8; }
+
+  private:
+    std::mt19937 random_{1};
+    double run_s_;
+};
 
 /** Bytes by name. */
 using Files = std::map<std::string, std::string>;
