@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 namespace {
+
 using std::chrono::milliseconds;
 constexpr milliseconds frame_interval(250), keyframe_interval(100), map_interval(1000);
 /** The map is sent so rarely that copying it takes less than this part of the time. */
