@@ -52,6 +52,7 @@ class FaultLive : public ::testing::Test {
         if (child == 0) {
             LiveClient client;
             connectSoon(client);
+            client.askForPicture();
             while (client.connected() && client.receive().empty()) std::this_thread::sleep_for(1ms);
             ::kill(::getpid(), SIGKILL);
         }
@@ -69,25 +70,28 @@ TEST_F(FaultLive, theResultIsTheSameWhoeverLooksOn) {
     const std::string alone = bytesOf(out_ + "/trajectory.txt");
     ASSERT_FALSE(alone.empty());
 
-    std::size_t frames = 0, maps = 0, features = 0;
+    std::size_t frames = 0, pictures = 0, maps = 0, features = 0;
     const ProgramResult watched = slam("watched", [&] {
         LiveClient client;
         ASSERT_TRUE(connectSoon(client));
         while (client.connected()) {
+            client.askForPicture();
             for (const std::string& bytes : client.receive()) {
                 const LiveMessage message = decode(bytes);
                 const auto* frame = std::get_if<LiveFrame>(&message);
                 ++(frame ? frames : maps);
                 if (frame) features += frame->features.size();
+                if (frame && frame->is_picture) ++pictures;
             }
             std::this_thread::sleep_for(1ms);
         }
     });
     EXPECT_EQ(watched.exit_code, 0);
     EXPECT_EQ(bytesOf(out_ + "/trajectory.txt"), alone);
-    EXPECT_GE(frames, 1u);
+    EXPECT_GE(pictures, 1u);
     EXPECT_GE(maps, 1u);
-    EXPECT_GT(features, 100 * frames);
+    EXPECT_GT(frames, pictures);  // keyframes come unasked
+    EXPECT_GT(features, 100 * pictures);
     EXPECT_FALSE(fs::exists(out_ + "/" + live_socket_name));
 
     EXPECT_EQ(slam("killed", [&] { killViewerInTheMidst(); }).exit_code, 0);

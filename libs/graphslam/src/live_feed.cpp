@@ -11,7 +11,7 @@ namespace rgbd_graphslam {
 namespace {
 
 using std::chrono::milliseconds;
-constexpr milliseconds frame_interval(250), keyframe_interval(100), map_interval(1000);
+constexpr milliseconds picture_interval(100), keyframe_interval(50), map_interval(1000);
 /** The map is sent so rarely that copying it takes less than this part of the time. */
 constexpr int least_map_pause = 500;
 constexpr std::size_t most_statistics = 20000;
@@ -39,6 +39,19 @@ std::vector<LiveFeature> liveFeatures(const VisualSlam& slam, const Camera& came
     return features;
 }
 
+/** Without images, features and statistics. */
+LiveFrame messageOf(const StreamedFrame& frame, const TrackedFrame& tracked,
+                    const GraphSlamSession& session) {
+    LiveFrame message;
+    message.is_picture = false;
+    message.stamp_s = tracked.stamp_s;
+    message.lost = tracked.origin == FrameOrigin::Lost;
+    message.T_world_cam = session.T_base_cam() * tracked.T_world_cam;
+    message.keyframe = tracked.keyframe.value_or(-1);
+    message.camera = cameraOf(*frame.observation);
+    return message;
+}
+
 }  // namespace
 
 LiveFeed::LiveFeed(const std::string& folder) {
@@ -55,13 +68,16 @@ void LiveFeed::note(const StreamedFrame& frame, const TrackedFrame& tracked, dou
     addStatistic(tracked, frame_ms);
     if (!server_->ready()) return;
     const auto now = Clock::now();
-    if (now >= next_map_) {
+    const bool wanted = server_->pictureWanted() && now >= next_picture_;
+    if (wanted && now >= next_map_) {
         sendMap(session);
         next_map_ =
             now + std::max<Clock::duration>(map_interval, least_map_pause * (Clock::now() - now));
-    } else if (now >= next_frame_ || (tracked.keyframe && now >= next_keyframe_)) {
-        sendFrame(frame, tracked, session);
-        next_frame_ = now + frame_interval;
+    } else if (wanted) {
+        sendPicture(frame, tracked, session);
+        next_picture_ = now + picture_interval;
+    } else if (tracked.keyframe && now >= next_keyframe_) {
+        send(frame, messageOf(frame, tracked, session));
         next_keyframe_ = now + keyframe_interval;
     }
 }
@@ -74,17 +90,18 @@ void LiveFeed::addStatistic(const TrackedFrame& tracked, double frame_ms) {
                            tracked.origin == FrameOrigin::Lost});
 }
 
-/** The images are reduced in the server's thread. */
-void LiveFeed::sendFrame(const StreamedFrame& frame, const TrackedFrame& tracked,
-                         const GraphSlamSession& session) {
-    LiveFrame message;
-    message.stamp_s = tracked.stamp_s;
-    message.lost = tracked.origin == FrameOrigin::Lost;
-    message.T_world_cam = session.T_base_cam() * tracked.T_world_cam;
-    message.keyframe = tracked.keyframe.value_or(-1);
-    message.camera = cameraOf(*frame.observation);
+void LiveFeed::sendPicture(const StreamedFrame& frame, const TrackedFrame& tracked,
+                           const GraphSlamSession& session) {
+    LiveFrame message = messageOf(frame, tracked, session);
+    message.is_picture = true;
     message.features = liveFeatures(session.slam(), message.camera);
     message.statistics = std::exchange(statistics_, {});
+    server_->pictureSent();
+    send(frame, std::move(message));
+}
+
+/** The images are reduced in the server's thread. */
+void LiveFeed::send(const StreamedFrame& frame, LiveFrame message) {
     const RgbdImage image = colorAndDepth(frame.observation);
     server_->post([message = std::move(message), image]() mutable {
         putImages(image, message);

@@ -12,8 +12,8 @@
 
 namespace rgbd_graphslam {
 
-/** Copies what a viewer shows, as often as one can be seen to need it and only while one listens.
- *  SLAM does not depend on any of it. */
+/** Copies what a viewer shows: keyframes for its map, and a picture of the present frame whenever
+ * it has asked for one. SLAM does not depend on any of it. */
 class LiveFeed {
   public:
     /** \param folder of the run, which gets the socket; where it cannot be made nobody looks on */
@@ -27,13 +27,14 @@ class LiveFeed {
     using Clock = std::chrono::steady_clock;
 
     void addStatistic(const TrackedFrame& tracked, double frame_ms);
-    void sendFrame(const StreamedFrame& frame, const TrackedFrame& tracked,
-                   const GraphSlamSession& session);
+    void sendPicture(const StreamedFrame& frame, const TrackedFrame& tracked,
+                     const GraphSlamSession& session);
+    void send(const StreamedFrame& frame, LiveFrame message);
     void sendMap(const GraphSlamSession& session);
 
     std::unique_ptr<LiveServer> server_;
     std::vector<LiveStatistic> statistics_;  // not yet sent
-    Clock::time_point next_frame_, next_keyframe_, next_map_;
+    Clock::time_point next_picture_, next_keyframe_, next_map_;
 };
 
 }  // namespace rgbd_graphslam

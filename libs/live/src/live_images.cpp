@@ -8,7 +8,7 @@
 namespace rgbd_graphslam {
 namespace {
 
-constexpr int widest_px = 320;
+constexpr int widest_picture_px = 320, widest_px = 96;
 
 template <class Pixel>
 cv::Mat everyNth(const cv::Mat& image, int step) {
@@ -33,7 +33,8 @@ cv::Mat reducedColor(const RgbdImage& image, int step) {
 }  // namespace
 
 void putImages(const RgbdImage& image, LiveFrame& frame) {
-    frame.step = std::max(1, (image.depth.cols + widest_px - 1) / widest_px);
+    const int widest = frame.is_picture ? widest_picture_px : widest_px;
+    frame.step = std::max(1, (image.depth.cols + widest - 1) / widest);
     frame.depth_unit_m = image.depth_unit_m;
     frame.depth = everyNth<std::uint16_t>(image.depth, frame.step);
     frame.color = reducedColor(image, frame.step);

@@ -12,8 +12,8 @@
 namespace rgbd_graphslam {
 namespace {
 
-/** Of a frame with two images: a text that grows would be copied some ten times. */
-constexpr std::size_t least_bytes = std::size_t{1} << 19;
+/** Of what comes beside images and poses. A text that grows would be copied some ten times. */
+constexpr std::size_t least_bytes = std::size_t{1} << 15;
 constexpr std::uint8_t frame_tag = 1, map_tag = 2;
 constexpr std::size_t pose_bytes = 12 * sizeof(double), edge_bytes = 2 * sizeof(std::int32_t),
                       feature_bytes = 9, statistic_bytes = 17;
@@ -89,10 +89,14 @@ std::vector<LiveStatistic> getStatistics(ByteReader& in) {
     return statistics;
 }
 
+std::size_t imageBytes(const cv::Mat& image) {
+    return image.total() * image.elemSize();
+}
+
 /** All pixels at once: one by one they would take longer than all the rest. */
 void putImage(ByteWriter& out, const cv::Mat& image) {
     const cv::Mat whole = image.isContinuous() ? image : image.clone();
-    const std::size_t bytes = whole.total() * whole.elemSize();
+    const std::size_t bytes = imageBytes(whole);
     out.put<std::int32_t>(whole.cols);
     out.putCount(bytes);
     out.putBytes({reinterpret_cast<const char*>(whole.data), bytes});
@@ -127,6 +131,7 @@ Camera getCamera(ByteReader& in) {
 
 void put(ByteWriter& out, const LiveFrame& frame) {
     out.put(frame_tag);
+    out.put<std::uint8_t>(frame.is_picture ? 1 : 0);
     out.put(frame.stamp_s);
     out.put<std::uint8_t>(frame.lost ? 1 : 0);
     put(out, frame.T_world_cam);
@@ -142,6 +147,7 @@ void put(ByteWriter& out, const LiveFrame& frame) {
 
 LiveFrame getFrame(ByteReader& in) {
     LiveFrame frame;
+    frame.is_picture = in.get<std::uint8_t>() != 0;
     frame.stamp_s = in.get<double>();
     frame.lost = in.get<std::uint8_t>() != 0;
     frame.T_world_cam = getPose(in);
@@ -193,6 +199,16 @@ LiveMap getMap(ByteReader& in) {
     return map;
 }
 
+/** About as many as the message will have. */
+std::size_t bytesOf(const LiveFrame& frame) {
+    return least_bytes + imageBytes(frame.color) + imageBytes(frame.depth);
+}
+
+std::size_t bytesOf(const LiveMap& map) {
+    return least_bytes + (map.path.size() + map.keyframes.size()) * (sizeof(double) + pose_bytes) +
+           (map.loops.size() + map.covisibility.size()) * edge_bytes;
+}
+
 LiveMessage getMessage(ByteReader& in) {
     switch (in.get<std::uint8_t>()) {
         case frame_tag:
@@ -208,8 +224,12 @@ LiveMessage getMessage(ByteReader& in) {
 
 std::string encode(const LiveMessage& message) {
     ByteWriter out;
-    out.reserve(least_bytes);
-    std::visit([&](const auto& content) { put(out, content); }, message);
+    std::visit(
+        [&](const auto& content) {
+            out.reserve(bytesOf(content));
+            put(out, content);
+        },
+        message);
     return out.take();
 }
 

@@ -17,7 +17,7 @@
 namespace rgbd_graphslam {
 namespace {
 
-constexpr std::uint32_t magic = 0x334c4752;  // "RGL3"
+constexpr std::uint32_t magic = 0x344c4752;  // "RGL4"
 constexpr std::size_t largest_message = std::size_t{256} << 20, chunk_bytes = 1 << 16;
 
 struct Header {
@@ -94,7 +94,7 @@ void LiveServer::serve() {
         if (events[0].revents) takeMessage();
         if (events[1].revents) acceptViewer();
         if (events[2].revents & (POLLIN | POLLHUP | POLLERR)) {
-            dropViewer();  // a viewer says nothing; it can only go
+            hearViewer();
         } else if (!pending_.empty()) {
             sendSome();
         }
@@ -103,6 +103,7 @@ void LiveServer::serve() {
 
 void LiveServer::acceptViewer() {
     viewer_.reset(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+    wanted_ = false;
     ready_ = static_cast<bool>(viewer_);
 }
 
@@ -112,6 +113,17 @@ void LiveServer::dropViewer() {
     pending_.clear();
     const std::lock_guard lock(mutex_);
     message_ = nullptr;
+}
+
+/** Each byte asks for a picture; its end is that of the viewer. */
+void LiveServer::hearViewer() {
+    char bytes[64];
+    const ssize_t n = ::recv(viewer_.get(), bytes, sizeof(bytes), MSG_DONTWAIT);
+    if (n > 0) {
+        wanted_ = true;
+    } else if (n == 0 || (errno != EAGAIN && errno != EINTR)) {
+        dropViewer();
+    }
 }
 
 void LiveServer::takeMessage() {
@@ -151,6 +163,11 @@ bool LiveClient::connect(const std::string& folder) {
     const SocketAddress address(folder);
     if (::connect(socket_.get(), address.get(), SocketAddress::size()) != 0) socket_.reset();
     return connected();
+}
+
+void LiveClient::askForPicture() {
+    const char any = 1;
+    ::send(socket_.get(), &any, 1, MSG_NOSIGNAL | MSG_DONTWAIT);  // receive() notices an end
 }
 
 std::vector<std::string> LiveClient::receive() {

@@ -1,5 +1,7 @@
 #include "rgbd_graphslam/viewer/live_run.h"
 
+#include <utility>
+
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/viewer/keyframe_view.h"
@@ -41,9 +43,14 @@ bool LiveRun::update() {
             sayWarning(e.what());
         }
     }
-    if (client_.connected()) return !messages.empty();
+    if (client_.connected()) return std::exchange(picture_is_new_, false);
     state_ = State::Ended;
     return true;
+}
+
+void LiveRun::askForPicture() {
+    if (state_ != State::Running || std::exchange(asked_, true)) return;
+    client_.askForPicture();
 }
 
 bool LiveRun::hasResult() const {
@@ -62,7 +69,11 @@ void LiveRun::take(const LiveMessage& message) {
 }
 
 void LiveRun::takeFrame(const LiveFrame& frame) {
-    frame_ = frame;
+    if (frame.is_picture) {
+        frame_ = frame;
+        picture_is_new_ = true;
+        asked_ = false;
+    }
     statistics_.insert(statistics_.end(), frame.statistics.begin(), frame.statistics.end());
     for (const LiveStatistic& statistic : frame.statistics) {
         if (statistic.lost) run_.unplaced_s.push_back(statistic.stamp_s);

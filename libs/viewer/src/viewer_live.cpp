@@ -1,4 +1,5 @@
 /** The window while it follows a run that goes on. */
+#include <algorithm>
 #include <filesystem>
 
 #include "panel_contents.h"
@@ -11,15 +12,16 @@ namespace rgbd_graphslam {
 namespace {
 
 constexpr double first_distance_m = 7, first_elevation_rad = 0.8;
-/** Of one processor, since the run may need it. The mouse is not held up by this. */
-constexpr double live_cpu_share = 0.02;
+/** While a picture is to come, and while none has been asked for. */
+constexpr double picture_wait_s = 0.03, longest_wait_s = 0.2;
 
 }  // namespace
 
 void ViewerWindow::follow(const std::string& folder, std::filesystem::file_time_type since) {
     live_ = std::make_unique<LiveRun>(folder, since);
     live_folder_ = folder;
-    live_budget_ = CpuBudget(live_cpu_share, processCpuSeconds());
+    live_budget_ = CpuBudget(shareBesideSlam(0), processCpuSeconds());
+    idle_time_.processors(Clock::now());
     follow_camera_ = true;
     camera_.distance_m = first_distance_m;
     camera_.elevation_rad = first_elevation_rad;
@@ -31,13 +33,26 @@ void ViewerWindow::follow(const std::string& folder, std::filesystem::file_time_
 
 void ViewerWindow::takeLive() {
     if (!live_) return;
-    live_is_new_ |= live_->update();
+    const bool has_picture = live_->update();
     if (live_->state() == LiveRun::State::Ended) return endLive();
-    if (live_is_new_ && live_->lastFrame() && live_budget_.allows(Clock::now())) showLive();
+    if (has_picture) return showLive();
+    if (live_budget_.allows(Clock::now())) live_->askForPicture();
+}
+
+/** The run may need the processor: the next picture is drawn when this one has been made up for.
+ * The mouse is not held up by this. */
+void ViewerWindow::keepLiveBudget() {
+    const auto now = Clock::now();
+    live_budget_.setShare(shareBesideSlam(idle_time_.processors(now)));
+    live_budget_.spent(now, processCpuSeconds());
+}
+
+double ViewerWindow::liveWait() const {
+    if (live_->state() == LiveRun::State::Waiting) return picture_wait_s;
+    return std::clamp(live_budget_.rest(Clock::now()), picture_wait_s, longest_wait_s);
 }
 
 void ViewerWindow::showLive() {
-    live_is_new_ = false;
     const LiveFrame& frame = *live_->lastFrame();
     scene_->showClouds(live_->takeMovedClouds());
     scene_->update(*live_);

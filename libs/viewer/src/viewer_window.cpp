@@ -9,7 +9,6 @@
 
 #include "panel_contents.h"
 #include "rgbd_graphslam/core/atomic_file.h"
-#include "rgbd_graphslam/core/process_usage.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -89,10 +88,10 @@ double ViewerWindow::update() {
     panels_changed_ |= mLastInteraction != last_drawn_interaction_ && !mouse_.pressed();
     if (panels_changed_ || picture_changed_) {
         drawAll();
-        live_budget_.spent(Clock::now(), processCpuSeconds());
+        if (live_) keepLiveBudget();
         shows_run_ = !live_ || live_->lastFrame();
     }
-    if (live_) return reading_wait_s;
+    if (live_) return liveWait();
     if (replay_.playing() || !renderer_->complete()) return busy_wait_s;
     return all_read_ ? idle_wait_s : reading_wait_s;
 }

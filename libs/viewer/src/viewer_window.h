@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "idle_time.h"
 #include "panel_set.h"
 #include "rgbd_graphslam/viewer/cpu_budget.h"
 #include "rgbd_graphslam/viewer/live_run.h"
@@ -107,6 +108,8 @@ class ViewerWindow : public nanogui::Screen {
 
     void takeLive();
     void showLive();
+    void keepLiveBudget();
+    double liveWait() const;
     void endLive();
 
     ViewerSettings settings_;
@@ -119,10 +122,10 @@ class ViewerWindow : public nanogui::Screen {
     bool all_read_ = true;
     std::unique_ptr<LiveRun> live_;  // while a run is followed
     std::string live_folder_;
-    bool live_is_new_ = false;          // something to show has come
     bool live_panels_changed_ = false;  // what panels show of the run
     bool shows_run_ = false;
     CpuBudget live_budget_{1, 0};
+    IdleTime idle_time_;
 
     OrbitCamera camera_;
     MouseGesture mouse_;

@@ -79,6 +79,17 @@ TEST(LiveMessages, smallImagesKeepEveryPixel) {
     EXPECT_EQ(imageCamera(frame).fx, Camera().fx);
 }
 
+TEST(LiveMessages, keyframesForTheMapHaveFewerPixelsThanPictures) {
+    LiveFrame sent;
+    sent.is_picture = false;
+    putImages(smoothImage(640, 480), sent);
+    const auto frame = std::get<LiveFrame>(decode(encode(sent)));
+    EXPECT_FALSE(frame.is_picture);
+    EXPECT_EQ(frame.step, 7);
+    EXPECT_EQ(frame.color.size(), cv::Size(92, 69));
+    EXPECT_EQ(frame.depth.at<std::uint16_t>(10, 20), 1000 + 10 * 70 + 140);
+}
+
 TEST(LiveMessages, aGreyCameraHasGreyImages) {
     RgbdImage image = smoothImage(640, 480);
     image.grey = cv::Mat(480, 640, CV_8UC1, cv::Scalar(77));

@@ -103,6 +103,28 @@ TEST_F(LiveSocket, viewersComeAndGo) {
     EXPECT_TRUE(soon([&] { return !server.ready(); }));
 }
 
+TEST_F(LiveSocket, aPictureIsWantedOnceForEachThatWasAskedFor) {
+    LiveServer server(folder_);
+    {
+        LiveClient client;
+        ASSERT_TRUE(client.connect(folder_));
+        ASSERT_TRUE(soon([&] { return server.ready(); }));
+        EXPECT_FALSE(server.pictureWanted());
+        client.askForPicture();
+        ASSERT_TRUE(soon([&] { return server.pictureWanted(); }));
+        server.pictureSent();
+        EXPECT_FALSE(server.pictureWanted());
+        EXPECT_TRUE(server.ready());
+        client.askForPicture();
+        ASSERT_TRUE(soon([&] { return server.pictureWanted(); }));
+    }
+    LiveClient next;  // has not asked for what the one before it wanted
+    ASSERT_TRUE(soon([&] { return !server.ready(); }));
+    ASSERT_TRUE(next.connect(folder_));
+    ASSERT_TRUE(soon([&] { return server.ready(); }));
+    EXPECT_FALSE(server.pictureWanted());
+}
+
 TEST_F(LiveSocket, aMessageThatCannotBeMadeIsLeftOut) {
     LiveServer server(folder_);
     LiveClient client;

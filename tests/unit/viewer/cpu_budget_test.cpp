@@ -37,5 +37,20 @@ TEST(CpuBudget, neverExceedsTheShareInTheLongRun) {
     EXPECT_LT(cpu_s, 1.1 * 0.04 * 60);
 }
 
+TEST(CpuBudget, tellsHowLongItRests) {
+    CpuBudget budget(0.1, 0);
+    budget.setShare(0.2);
+    budget.spent(at(1000), 0.02);
+    EXPECT_NEAR(budget.rest(at(1000)), 0.1, 1e-9);
+    EXPECT_LE(budget.rest(at(1200)), 0);
+}
+
+TEST(ShareBesideSlam, isNextToNothingOnAMachineThatIsBusy) {
+    EXPECT_LT(shareBesideSlam(0), 0.02);
+    EXPECT_EQ(shareBesideSlam(0.5), shareBesideSlam(0));
+    EXPECT_GT(shareBesideSlam(1.5), 0.1);
+    EXPECT_LE(shareBesideSlam(60), 0.25);
+}
+
 }  // namespace
 }  // namespace rgbd_graphslam

@@ -70,6 +70,16 @@ TEST(LiveRun, framesExtendThePathAndThePlots) {
     EXPECT_EQ(live.run().unplaced_s, std::vector<double>{2});
 }
 
+TEST(LiveRun, keyframesForTheMapAreNoPictures) {
+    LiveRun live("");
+    LiveFrame frame = keyframe(0, 1, 0);
+    frame.is_picture = false;
+    live.take(frame);
+    EXPECT_FALSE(live.lastFrame());
+    EXPECT_EQ(live.takeMovedClouds().size(), 1U);
+    EXPECT_EQ(live.run().trajectory.size(), 1U);
+}
+
 TEST(LiveRun, betweenMapsOnlyTheTrajectoryGrows) {
     LiveRun live("");
     live.take(mapWith(0, 1));

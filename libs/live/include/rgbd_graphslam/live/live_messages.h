@@ -29,8 +29,12 @@ struct LiveStatistic {
     bool lost = false;
 };
 
-/** A frame, with images reduced to what a window shows. */
+/** A frame, with images reduced to what a window shows, or a keyframe, with images reduced to what
+ *  its part of the map needs. */
 struct LiveFrame {
+    /** Whether it is one that the viewer has asked for; else a keyframe for the map alone, without
+     *  features and statistics. */
+    bool is_picture = true;
     double stamp_s = 0;
     bool lost = false;
     SE3 T_world_cam;
@@ -38,7 +42,7 @@ struct LiveFrame {
     int keyframe = -1;
     Camera camera;  // of the images as the sensor made them
     std::vector<LiveFeature> features;
-    /** Of all frames since the last message, this one included. */
+    /** Of all frames since the last picture, this one included. */
     std::vector<LiveStatistic> statistics;
     /** CV_8UC3 (BGR) and CV_16UC1: every n-th pixel of every n-th row, from the first on. As they
      *  are, since packing them would cost SLAM more than sending them. */
@@ -55,8 +59,8 @@ struct LiveMap {
 
 using LiveMessage = std::variant<LiveFrame, LiveMap>;
 
-/** Reduces the images of a frame into the message, to 320 columns at most; of a grey camera the
- *  three colours are the same. */
+/** Reduces the images of a frame into the message, to 320 columns at most of a picture, to 96 of
+ *  another; of a grey camera the three colours are the same. */
 void putImages(const RgbdImage& image, LiveFrame& frame);
 
 /** The camera of the images in the message.

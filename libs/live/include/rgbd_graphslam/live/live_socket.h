@@ -32,6 +32,9 @@ class LiveServer {
 
     /** Whether somebody listens and has taken the last message. */
     bool ready() const { return ready_.load(std::memory_order_relaxed); }
+    /** Whether the viewer has asked for a picture since the last pictureSent(). */
+    bool pictureWanted() const { return wanted_.load(std::memory_order_relaxed); }
+    void pictureSent() { wanted_ = false; }
 
     /** Sends one message, if ready() still holds.
      *  \param encode gives its bytes; runs in the server's thread, or not at all */
@@ -41,6 +44,7 @@ class LiveServer {
     void serve();
     void acceptViewer();
     void dropViewer();
+    void hearViewer();
     void takeMessage();
     void sendSome();
 
@@ -48,7 +52,7 @@ class LiveServer {
     FileDescriptor listener_, viewer_, wake_;
     std::string pending_;  // bytes still to be sent
     std::size_t sent_ = 0;
-    std::atomic<bool> ready_{false}, stop_{false};
+    std::atomic<bool> ready_{false}, wanted_{false}, stop_{false};
     std::mutex mutex_;
     std::function<std::string()> message_;
     std::thread thread_;
@@ -60,6 +64,8 @@ class LiveClient {
     /** Connects to the run that writes to a folder, if there is one. \return whether it did */
     bool connect(const std::string& folder);
     bool connected() const { return static_cast<bool>(socket_); }
+    /** Asks for a picture of the next frame: what a viewer has no time to show is not made. */
+    void askForPicture();
     /** Whole messages that have arrived, oldest first; never waits. When the run has ended,
      *  connected() becomes false. */
     std::vector<std::string> receive();

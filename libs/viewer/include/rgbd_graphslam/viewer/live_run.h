@@ -22,8 +22,10 @@ class LiveRun {
         : folder_(std::move(folder)), since_(since) {}
 
     enum class State { Waiting, Running, Ended };
-    /** Takes in what has arrived; never waits. \return whether anything is new */
+    /** Takes in what has arrived; never waits. \return whether a picture has come, or the end */
     bool update();
+    /** Asks for the next picture, unless one is still to come. */
+    void askForPicture();
     State state() const { return state_; }
     /** Whether the run has written its result. */
     bool hasResult() const;
@@ -32,6 +34,7 @@ class LiveRun {
     const RunData& run() const { return run_; }
     /** How often everything may have moved; in between only the trajectory grows. */
     std::size_t revisions() const { return revisions_; }
+    /** The last picture. */
     const std::optional<LiveFrame>& lastFrame() const { return frame_; }
     const std::vector<LiveStatistic>& statistics() const { return statistics_; }
 
@@ -55,6 +58,7 @@ class LiveRun {
     std::string folder_;
     std::filesystem::file_time_type since_;
     LiveClient client_;
+    bool asked_ = false, picture_is_new_ = false;
     State state_ = State::Waiting;
     RunData run_;
     std::size_t revisions_ = 0;
