@@ -51,7 +51,7 @@ const SlamJob& smallJob() {
         job.rawlog = folder / "a.rawlog";
         job.out_folder = folder / "out";
         job.options.run.threads = 1;
-        job.options.slam.features.count = 70;
+        job.options.slam.features.count = 55;
         job.options.slam.features.levels = 3;
         job.options.slam.tracker.min_inliers = 12;
         job.options.slam.keyframes.max_rotation_rad = 0.08;
