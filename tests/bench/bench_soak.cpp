@@ -1,6 +1,7 @@
 /** bench_soak RAWLOG FRAMES PERIOD > CSV: plays the first PERIOD frames of a rawlog, whose last
  * leads to the first again, until FRAMES frames are through, and writes what the process holds. */
 #include <dirent.h>
+#include <malloc.h>
 #include <sys/resource.h>
 
 #include <cstdio>
@@ -33,6 +34,12 @@ double memoryMb() {
     return resident * 4096e-6;
 }
 
+/** What was asked for and not given back; the allocator and libraries hold more. */
+double heapMb() {
+    const struct mallinfo2 info = mallinfo2();
+    return 1e-6 * static_cast<double>(info.uordblks + info.hblkhd);
+}
+
 long handles() {
     const std::unique_ptr<DIR, int (*)(DIR*)> folder(opendir("/proc/self/fd"), closedir);
     long count = 0;
@@ -46,7 +53,9 @@ class Soak {
         frame->timestamp = toMrptTime(1000 + frame_period_s * frames_);
         if (!session_) {
             session_ = std::make_unique<GraphSlamSession>(SlamOptions{}, *frame);
-            std::puts("frame,keyframes,landmarks,lost,loops,memory_mb,handles,cpu_ms_a_frame");
+            std::puts(
+                "frame,keyframes,all_keyframes,landmarks,lost,loops,"
+                "memory_mb,heap_mb,handles,cpu_ms_a_frame");
         }
         lost_ += session_->step(frame).origin == FrameOrigin::Lost;
         if (++frames_ % frames_a_row == 0) writeRow();
@@ -56,12 +65,13 @@ class Soak {
   private:
     void writeRow() {
         long living = 0;
-        for (const KeyframeView& keyframe : session_->slam().keyframes())
-            living += !keyframe.culled;
+        const auto keyframes = session_->slam().keyframes();
+        for (const KeyframeView& keyframe : keyframes) living += !keyframe.culled;
         const double now_ms = cpuMs();
-        std::printf("%ld,%ld,%zu,%ld,%zu,%.1f,%ld,%.2f\n", frames_, living,
-                    session_->slam().landmarks().size(), lost_, session_->slam().loops().size(),
-                    memoryMb(), handles(), (now_ms - last_row_ms_) / frames_a_row);
+        std::printf("%ld,%ld,%zu,%zu,%ld,%zu,%.1f,%.1f,%ld,%.2f\n", frames_, living,
+                    keyframes.size(), session_->slam().landmarks().size(), lost_,
+                    session_->slam().loops().size(), memoryMb(), heapMb(), handles(),
+                    (now_ms - last_row_ms_) / frames_a_row);
         std::fflush(stdout);
         last_row_ms_ = now_ms;
     }

@@ -16,6 +16,9 @@ constexpr int descriptor_bits = 256;
 constexpr std::size_t leaf_capacity = 80;
 /** A bit that splits worse than this says too little. */
 constexpr double most_unbalanced = 0.3;
+/** Leaves take memory in pieces of so many entries: doubling would leave a third of it idle, and
+ *  sizes of all kinds leave holes that nothing fits. */
+constexpr std::size_t entries_at_once = 16;
 /** One round of sweeping takes so many keyframes. */
 constexpr std::size_t sweep_keyframes = 64;
 constexpr std::size_t least_node_bytes = sizeof(std::int16_t) + sizeof(std::uint32_t);
@@ -77,10 +80,25 @@ struct PlaceIndex::Tree {
         std::size_t forgotten = 0;
 
         std::size_t size() const { return entries.size() + forgotten; }
+        void add(const Entry& entry) {
+            if (entries.size() == entries.capacity()) {
+                entries.reserve(entries.size() + entries_at_once);
+            }
+            entries.push_back(entry);
+        }
         void forget(const std::vector<char>& erased) {
             const auto is_erased = [&](const Entry& e) { return erased[e.keyframe] != 0; };
             entries.erase(std::remove_if(entries.begin(), entries.end(), is_erased), entries.end());
             forgotten = 0;
+        }
+        /** Gives back pieces that are not needed. */
+        void fit() {
+            const std::size_t pieces = (entries.size() + entries_at_once - 1) / entries_at_once;
+            if (entries.capacity() <= pieces * entries_at_once) return;
+            std::vector<Entry> fitting;
+            fitting.reserve(pieces * entries_at_once);
+            fitting.assign(entries.begin(), entries.end());
+            entries = std::move(fitting);
         }
     };
     explicit Tree(int first) : first_bit(first), nodes(1) {}
@@ -93,7 +111,7 @@ struct PlaceIndex::Tree {
 
     void insert(const Entry& entry, const std::vector<char>& erased) {
         const int leaf = leafOf(entry.descriptor);
-        nodes[leaf].entries.push_back(entry);
+        nodes[leaf].add(entry);
         if (nodes[leaf].size() <= nodes[leaf].splits_at) return;
         nodes[leaf].forget(erased);
         if (nodes[leaf].entries.size() > nodes[leaf].splits_at) split(leaf);
@@ -104,7 +122,7 @@ struct PlaceIndex::Tree {
         for (std::size_t i = 0; i < nodes.size() / sweep_keyframes + 1; ++i) {
             swept = (swept + 1) % nodes.size();
             nodes[swept].forget(erased);
-            nodes[swept].entries.shrink_to_fit();
+            nodes[swept].fit();
         }
     }
 
@@ -121,7 +139,7 @@ struct PlaceIndex::Tree {
         nodes[leaf].bit = bit;
         for (const int side : {0, 1}) nodes[leaf].child[side] = first_child + side;
         for (const Entry& entry : entries) {
-            nodes[first_child + bitOf(entry.descriptor, bit)].entries.push_back(entry);
+            nodes[first_child + bitOf(entry.descriptor, bit)].add(entry);
         }
     }
 
@@ -239,7 +257,7 @@ void PlaceIndex::load(ByteReader& in, std::size_t keyframes) {
     for (std::size_t i = 0; i < known; ++i) {
         const Descriptor descriptor = getDescriptor(in);
         const Entry entry{descriptor, getIndex(in, erased_.size(), "keyframe")};
-        for (auto& tree : trees_) tree->nodes[tree->leafOf(descriptor)].entries.push_back(entry);
+        for (auto& tree : trees_) tree->nodes[tree->leafOf(descriptor)].add(entry);
     }
 }
 
