@@ -35,7 +35,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SequenceResult, name, fingerprint, problem, v
                                    import_s, slam_s)
 
 std::string toJson(const SequenceResult& result) {
-    return nlohmann::json(result).dump(2) + "\n";
+    const auto replace = nlohmann::json::error_handler_t::replace;  // names may be no UTF-8
+    return nlohmann::json(result).dump(2, ' ', false, replace) + "\n";
 }
 
 SequenceResult resultFromJson(const std::string& text, const std::string& path) {

@@ -14,6 +14,7 @@
 
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/printable_text.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -49,11 +50,11 @@ std::string contentOf(std::FILE* file) {
     return text;
 }
 
-pid_t start(const char* program, std::FILE* input, std::FILE* errors) {
+pid_t start(const char* program, std::FILE* input, const std::string& output, std::FILE* errors) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, fileno(input), STDIN_FILENO);
-    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, output.c_str(), O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, fileno(errors), STDERR_FILENO);
     char* const arguments[] = {const_cast<char*>(program), nullptr};
     pid_t child = 0;
@@ -74,9 +75,11 @@ int exitStatusOf(pid_t child) {
     return status;
 }
 
-void runGnuplot(const std::string& script) {
+/** The picture goes to standard output: a script cannot name every file, as a line end in a literal
+ *  begins another command. */
+void runGnuplot(const std::string& script, const std::string& picture) {
     const File input = fileWith(script), errors = scratchFile();
-    if (exitStatusOf(start("gnuplot", input.get(), errors.get())) != 0) {
+    if (exitStatusOf(start("gnuplot", input.get(), picture, errors.get())) != 0) {
         throw Error("gnuplot failed: " + contentOf(errors.get()));
     }
 }
@@ -124,16 +127,16 @@ std::string Gnuplot::data(const Rows& rows) {
 
 void Gnuplot::draw() const {
     writeAtomically(path_, [&](const std::string& temporary) {
-        if (!std::ofstream(temporary)) return false;  // gnuplot would not fail
-        runGnuplot("set terminal " + terminal_ + "\nset output " + quoted(temporary) + "\n" +
-                   blocks_ + commands_ + "unset output\n");
+        if (!std::ofstream(temporary)) return false;
+        runGnuplot("set terminal " + terminal_ + "\n" + blocks_ + commands_ + "unset output\n",
+                   temporary);
         return std::filesystem::file_size(temporary) > 0;
     });
 }
 
 std::string Gnuplot::quoted(const std::string& text) {
     std::string literal = "'";
-    for (const char c : text) literal += c == '\'' ? "''" : std::string(1, c);
+    for (const char c : printableLine(text)) literal += c == '\'' ? "''" : std::string(1, c);
     return literal + "'";
 }
 

@@ -137,7 +137,7 @@ std::string csvTable(const std::vector<Report>& reports) {
 std::string jsonTable(const std::vector<Report>& reports) {
     nlohmann::ordered_json array = nlohmann::ordered_json::array();
     for (const auto& report : reports) array.push_back(jsonOf(report));
-    return array.dump(2) + "\n";
+    return array.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 std::string latexTable(const std::vector<Report>& reports) {

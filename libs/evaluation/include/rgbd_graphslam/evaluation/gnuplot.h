@@ -26,7 +26,7 @@ class Gnuplot {
      *  \throws Error when gnuplot is missing, refuses the script or the file cannot be written */
     void draw() const;
 
-    /** A text as a literal of the script. */
+    /** A text as a literal of the script, where it is one line of letters: see printableLine(). */
     static std::string quoted(const std::string& text);
 
   private:
