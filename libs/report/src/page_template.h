@@ -22,6 +22,7 @@ h2 { font-size: 16px; margin: 0 0 10px; }
 section { background: var(--paper); border: 1px solid var(--line); border-radius: 8px;
           padding: 14px 16px; margin-bottom: 16px; min-width: 0; }
 section.wide { grid-column: 1 / -1; }
+section:not(.wide):nth-child(odd):nth-last-child(2) { grid-column: 1 / -1; }
 .columns { display: grid; grid-template-columns: repeat(auto-fit, minmax(430px, 1fr)); gap: 0 16px; }
 .figures { display: flex; flex-wrap: wrap; gap: 6px 34px; margin-bottom: 16px; }
 .figures div { min-width: 90px; }

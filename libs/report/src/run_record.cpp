@@ -103,6 +103,8 @@ void readFigures(const Json& summary, RunRecord& run) {
     for (const Json& edge : summary.at("loop_edges")) {
         run.loops.push_back({edge.at(0), edge.at(1), edge.at(2), loopErrorOf(edge)});
     }
+    const Json ate = summary.value("ate", Json());
+    if (!ate.is_null()) run.ate_rmse_m = ate.at("rmse_m").get<double>();
     const Json false_loops = summary.value("false_loops", Json());
     if (!false_loops.is_null()) run.false_loops = false_loops.get<std::size_t>();
 }

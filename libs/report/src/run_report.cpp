@@ -92,7 +92,7 @@ class Page {
         add(std::to_string(run_.keyframes.size()), "keyframes");
         add(std::to_string(run_.loops.size()), "loops");
         add(std::to_string(run_.landmarks), "landmarks");
-        if (ate_) add(formatted("%.1f mm", 1e3 * ate_->translation_m.rmse), "ATE RMSE");
+        if (run_.ate_rmse_m) add(formatted("%.1f mm", 1e3 * *run_.ate_rmse_m), "ATE RMSE");
         add(formatted("%.0f /s", run_.frames_per_s), "frames");
         add(formatted("%.1f ms", run_.cpu_ms_a_frame), "CPU a frame");
         add(formatted("%.0f MB", run_.peak_memory_mb), "peak memory");
@@ -141,7 +141,7 @@ class Page {
 
     std::string stages() const {
         return stageTable(run_) +
-               note(formatted("CPU ms a call; bars are shares of the whole. Dense maps: %.1f s.",
+               note(formatted("CPU ms a call, and shares of the whole. Dense maps: %.1f s.",
                               run_.maps_wall_s));
     }
 

@@ -69,18 +69,21 @@ std::string loopSummary(const RunRecord& run) {
 }
 
 std::string stageTable(const RunRecord& run) {
-    double all_ms = 1e-9;
-    for (const StageRecord& stage : run.stages) all_ms += totalMs(stage);
+    double all_ms = 1e-9, most_ms = 1e-9;
+    for (const StageRecord& stage : run.stages) {
+        all_ms += totalMs(stage);
+        most_ms = std::max(most_ms, totalMs(stage));
+    }
     std::string html =
         "<table><tr><th>stage</th><th>calls</th><th>mean</th><th>median</th><th>95 %</th>"
-        "<th>max</th><th></th></tr>\n";
+        "<th>max</th><th>share</th><th></th></tr>\n";
     for (const StageRecord& stage : run.stages) {
         html += "<tr><td>" + htmlEscaped(stage.name) + "</td>" +
                 formatted(
                     "<td>%zu</td><td>%.2f</td><td>%.2f</td><td>%.2f</td><td>%.1f</td>"
-                    "<td class=\"bar\"><i style=\"width:%.1f%%\"></i></td></tr>\n",
+                    "<td>%.0f %%</td><td class=\"bar\"><i style=\"width:%.1f%%\"></i></td></tr>\n",
                     stage.calls, stage.mean_ms, stage.median_ms, stage.p95_ms, stage.max_ms,
-                    100 * totalMs(stage) / all_ms);
+                    100 * totalMs(stage) / all_ms, 100 * totalMs(stage) / most_ms);
     }
     return html + "</table>";
 }

@@ -12,7 +12,7 @@ std::string loopTable(const RunRecord& run);
 /** What the loops' errors come to, in a sentence of plain text. */
 std::string loopSummary(const RunRecord& run);
 
-/** CPU time by stage; bars tell the stage's share of all of it. */
+/** CPU time by stage, its share of all of it, and a bar as long. */
 std::string stageTable(const RunRecord& run);
 
 }  // namespace rgbd_graphslam

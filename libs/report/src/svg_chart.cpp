@@ -12,7 +12,7 @@ namespace rgbd_graphslam {
 namespace {
 
 constexpr int width_px = 560, plan_height_px = 380, time_height_px = 190;
-constexpr int left_px = 46, right_px = 12, top_px = 26, bottom_px = 34;
+constexpr int left_px = 46, right_px = 22, top_px = 26, bottom_px = 34;
 constexpr std::size_t most_points = 2000;
 
 struct Range {

@@ -6,12 +6,10 @@
 
 #include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/viewer/keyframe_view.h"
+#include "scene_colors.h"
 
 namespace rgbd_graphslam {
 namespace {
-
-constexpr Rgba tracked_color = {60, 220, 90, 255}, new_color = {70, 150, 255, 255},
-               lost_color = {255, 60, 60, 255};
 
 cv::Mat3b decoded(const std::vector<unsigned char>& jpeg) {
     return jpeg.empty() ? cv::Mat3b() : cv::Mat3b(cv::imdecode(jpeg, cv::IMREAD_COLOR));
@@ -59,7 +57,7 @@ void showKeyframe(PicturePanel& panel, const RunScene& scene, std::size_t keyfra
     const std::string without = run.rawlog.empty() ? "no recording" : "not yet read";
     panel.color().show(picture ? decoded(picture->color_jpeg) : cv::Mat3b(), without);
     panel.depth().show(picture ? decoded(picture->depth_jpeg) : cv::Mat3b(), without);
-    panel.say(formatted("keyframe %zu of %zu, %.2f s", keyframe, run.keyframes.size(),
+    panel.say(formatted("keyframe %zu (0 to %zu), %.2f s", keyframe, run.keyframes.size() - 1,
                         run.keyframes[keyframe].stamp_s - timeSpan(run).first));
 }
 
@@ -72,6 +70,14 @@ void showRunPlots(PlotPanel& panel, const RunScene& scene) {
     panel.times().show(scene.run().frame_times_ms);
     panel.errors().name(scene.errors().empty() ? "error: no truth" : "error", " cm");
     panel.errors().show(errorsCm(scene.errors()));
+}
+
+std::string summaryOf(const RunScene& scene, std::size_t points) {
+    const RunData& run = scene.run();
+    const std::string map =
+        points == 0 ? "no map of points" : formatted("%.2f million points", 1e-6 * points);
+    return formatted("%s, keyframes: %zu, loops: %zu; ? lists keys and mouse", map.c_str(),
+                     run.keyframes.size(), run.loops.size());
 }
 
 void showLiveFrame(PicturePanel& panel, const LiveFrame& frame) {

@@ -12,6 +12,8 @@ namespace rgbd_graphslam {
 void showKeyframe(PicturePanel& panel, const RunScene& scene, std::size_t keyframe);
 /** Landmarks, times and errors of a finished run. */
 void showRunPlots(PlotPanel& panel, const RunScene& scene);
+/** In one line. \param points of the map */
+std::string summaryOf(const RunScene& scene, std::size_t points);
 
 /** Images of the present frame with its features. \throws Error when it has none */
 void showLiveFrame(PicturePanel& panel, const LiveFrame& frame);

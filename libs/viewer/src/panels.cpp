@@ -2,17 +2,36 @@
 
 #include <nanogui/entypo.h>
 
+#include <opencv2/core.hpp>
+
+#include "rgbd_graphslam/core/formatted.h"
+#include "rgbd_graphslam/viewer/keyframe_view.h"
+#include "scene_colors.h"
+
 namespace rgbd_graphslam {
 namespace {
 
 constexpr int picture_width_px = 288, picture_height_px = 216, plot_width_px = 232,
-              plot_height_px = 76, line_px = 18;
+              plot_height_px = 76, line_px = 18, switch_width_px = 155, switch_height_px = 20,
+              swatch_width_px = 18, swatch_height_px = 3;
 constexpr float largest_point_px = 10;
 
 nanogui::Widget* column(nanogui::Widget* parent, int spacing_px) {
     parent->setLayout(new nanogui::BoxLayout(nanogui::Orientation::Vertical,
                                              nanogui::Alignment::Fill, 8, spacing_px));
     return parent;
+}
+
+nanogui::Widget* row(nanogui::Widget* parent, int spacing_px) {
+    auto* row = new nanogui::Widget(parent);
+    row->setLayout(new nanogui::BoxLayout(nanogui::Orientation::Horizontal,
+                                          nanogui::Alignment::Middle, 0, spacing_px));
+    return row;
+}
+
+void addLabel(nanogui::Widget* parent, const char* text, const Rgba& color) {
+    auto* label = new nanogui::Label(parent, text);
+    label->setColor(nanogui::Color(color[0], color[1], color[2], color[3]));
 }
 
 }  // namespace
@@ -26,13 +45,13 @@ ViewPanel::ViewPanel(nanogui::Widget* screen, ViewerSettings& settings,
     addSwitch(this, "octree: occupied", &ViewerSettings::octree);
     addSwitch(this, "octree: free", &ViewerSettings::free_space);
     addSwitch(this, "2-D grid", &ViewerSettings::grid);
-    addSwitch(this, "trajectory", &ViewerSettings::trajectory);
-    addSwitch(this, "true trajectory", &ViewerSettings::truth);
-    addSwitch(this, "errors", &ViewerSettings::errors);
-    addSwitch(this, "keyframes", &ViewerSettings::keyframes);
-    addSwitch(this, "covisibility", &ViewerSettings::covisibility);
-    addSwitch(this, "loops", &ViewerSettings::loops);
-    addSwitch(this, "without loops", &ViewerSettings::before_loops);
+    addSwitch("trajectory", &ViewerSettings::trajectory, trajectory_color);
+    addSwitch("true trajectory", &ViewerSettings::truth, truth_color);
+    errors_ = addSwitch("errors", &ViewerSettings::errors, error_color);
+    addSwitch("keyframes", &ViewerSettings::keyframes, keyframe_color);
+    addSwitch("covisibility", &ViewerSettings::covisibility, covisibility_color);
+    addSwitch("loops", &ViewerSettings::loops, loop_color);
+    addSwitch("without loops", &ViewerSettings::before_loops, before_color);
     addSwitch(this, "floor lines", &ViewerSettings::floor);
     addSwitch(this, "cut the ceiling off", &ViewerSettings::cut_ceiling);
     by_height_ = new nanogui::CheckBox(this, "colours by height", [this](bool on) {
@@ -50,13 +69,27 @@ ViewPanel::ViewPanel(nanogui::Widget* screen, ViewerSettings& settings,
     refresh();
 }
 
-void ViewPanel::addSwitch(nanogui::Widget* parent, const char* caption,
-                          bool ViewerSettings::*field) {
+nanogui::CheckBox* ViewPanel::addSwitch(nanogui::Widget* parent, const char* caption,
+                                        bool ViewerSettings::*field) {
     auto* box = new nanogui::CheckBox(parent, caption, [this, field](bool on) {
         settings_.*field = on;
         changed_();
     });
     switches_.emplace_back(box, field);
+    return box;
+}
+
+nanogui::CheckBox* ViewPanel::addSwitch(const char* caption, bool ViewerSettings::*field,
+                                        const Rgba& color) {
+    nanogui::Widget* line = row(this, 0);
+    nanogui::CheckBox* box = addSwitch(line, caption, field);
+    box->setFixedSize({switch_width_px, switch_height_px});
+    new ColorWidget(line, {swatch_width_px, swatch_height_px}, color);
+    return box;
+}
+
+void ViewPanel::nameErrors(int scale) {
+    errors_->setCaption(scale > 1 ? formatted("errors, %d x longer", scale) : "errors");
 }
 
 void ViewPanel::refresh() {
@@ -73,15 +106,20 @@ PicturePanel::PicturePanel(nanogui::Widget* screen, ViewerSettings& settings,
     label_->setFixedSize({picture_width_px, line_px});
     color_ = new PictureWidget(this, {picture_width_px, picture_height_px});
     color_->showMarks(settings.features);
+    features_ = row(this, 10);
     auto* features = new nanogui::CheckBox(
-        this, "features", [this, &settings, changed = std::move(changed)](bool on) {
+        features_, "features", [this, &settings, changed = std::move(changed)](bool on) {
             settings.features = on;
             color_->showMarks(on);
             changed();
         });
     features->setChecked(settings.features);
-    features_ = features;
+    addLabel(features_, "tracked", tracked_color);
+    addLabel(features_, "new", new_color);
+    addLabel(features_, "lost", lost_color);
     depth_ = new PictureWidget(this, {picture_width_px, picture_height_px});
+    const std::string farthest = std::to_string(cvRound(farthest_painted_m));
+    new nanogui::Label(this, "depth: red near, blue " + farthest + " m, black none");
 }
 
 void PicturePanel::setLive(bool live) {
@@ -108,9 +146,7 @@ void PlotPanel::setCursor(float share) {
 
 TimePanel::TimePanel(nanogui::Widget* screen) : nanogui::Window(screen, "") {
     column(this, 2);
-    row_ = new nanogui::Widget(this);
-    row_->setLayout(new nanogui::BoxLayout(nanogui::Orientation::Horizontal,
-                                           nanogui::Alignment::Middle, 0, 10));
+    row_ = row(this, 10);
     play_ = new nanogui::Button(row_, "", ENTYPO_ICON_CONTROLLER_PLAY);
     play_->setFlags(nanogui::Button::ToggleButton);
     play_->setChangeCallback([this](bool play) { on_play(play); });

@@ -27,14 +27,20 @@ class ViewPanel : public nanogui::Window {
 
     /** Shows settings that were changed elsewhere. */
     void refresh();
+    /** \param scale how many times longer than they are errors are drawn */
+    void nameErrors(int scale);
 
   private:
-    void addSwitch(nanogui::Widget* parent, const char* caption, bool ViewerSettings::*field);
+    nanogui::CheckBox* addSwitch(nanogui::Widget* parent, const char* caption,
+                                 bool ViewerSettings::*field);
+    /** Beside it what colour the lines have. */
+    nanogui::CheckBox* addSwitch(const char* caption, bool ViewerSettings::*field,
+                                 const Rgba& color);
 
     ViewerSettings& settings_;
     std::function<void()> changed_;
     std::vector<std::pair<nanogui::CheckBox*, bool ViewerSettings::*>> switches_;
-    nanogui::CheckBox* by_height_ = nullptr;
+    nanogui::CheckBox *errors_ = nullptr, *by_height_ = nullptr;
     nanogui::Slider* point_size_ = nullptr;
 };
 

@@ -6,16 +6,11 @@
 #include "rgbd_graphslam/core/free_memory.h"
 #include "rgbd_graphslam/viewer/keyframe_view.h"
 #include "rgbd_graphslam/viewer/scene_parts.h"
+#include "scene_colors.h"
 
 namespace rgbd_graphslam {
 namespace {
 
-constexpr Rgba floor_color = {198, 204, 213, 255}, trajectory_color = {235, 95, 0, 255},
-               truth_color = {20, 140, 60, 255}, error_color = {190, 60, 190, 255},
-               keyframe_color = {30, 90, 200, 255}, covisibility_color = {120, 170, 120, 255},
-               loop_color = {215, 25, 60, 255}, before_color = {130, 130, 140, 255},
-               now_color = {235, 95, 0, 255}, selection_color = {255, 190, 0, 255},
-               measure_color = {200, 0, 200, 255};
 constexpr double ceiling_margin_m = 0.1;
 constexpr std::size_t most_moving_triangles = 40000;
 /** Above the floor, and above the first camera while the floor is not known. */
@@ -79,7 +74,11 @@ void RunScene::showPoses() {
 void RunScene::showTruth() {
     errors_ = trueErrors(run_.trajectory, run_.truth);
     std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>> pairs;
-    for (const TrueError& error : errors_) pairs.emplace_back(error.estimate, error.truth);
+    error_scale_ = visibleScale(errors_, box_.isEmpty() ? 0 : box_.diagonal().norm());
+    for (const TrueError& error : errors_) {
+        const Eigen::Vector3d way = error.truth - error.estimate;
+        pairs.emplace_back(error.estimate, error.estimate + error_scale_ * way);
+    }
     renderer_.geometry().setLines(Part::Errors, pairLines(pairs, error_color));
     // The truth has poses at frames only: one without shows that nobody measured.
     std::vector<double> frames_s = run_.unplaced_s;
@@ -114,12 +113,15 @@ void RunScene::extendPath(const RunData& longer) {
 }
 
 void RunScene::showClouds(const std::vector<std::pair<std::size_t, Vertices>>& clouds) {
-    for (const auto& [keyframe, points] : clouds) {
-        renderer_.setKeyframePoints(keyframe, points);
-        Eigen::AlignedBox3f box;
-        for (const Vertex& point : points) box.extend(point.position);
-        box_.extend(box.cast<double>());
-    }
+    for (const auto& [keyframe, points] : clouds) showCloud(keyframe, points);
+}
+
+void RunScene::showCloud(std::size_t keyframe, const Vertices& points) {
+    renderer_.setKeyframePoints(keyframe, points);
+    if (renderer_.points() > 0) return;  // the map is larger, and has fewer strays
+    Eigen::AlignedBox3f box;
+    for (const Vertex& point : points) box.extend(point.position);
+    box_.extend(box.cast<double>());
 }
 
 void RunScene::setCamera(const Camera& camera) {
@@ -141,7 +143,7 @@ double RunScene::frustumDepth() const {
 void RunScene::add(RecordingLoader::News news) {
     if (news.camera) setCamera(*news.camera);
     for (KeyframePicture& picture : news.pictures) {
-        renderer_.setKeyframePoints(picture.keyframe, picture.points);
+        showCloud(picture.keyframe, picture.points);
         freeMemory(picture.points);  // the renderer has them
         pictures_[picture.keyframe] = std::move(picture);
     }
@@ -216,6 +218,8 @@ SceneView RunScene::viewAt(std::optional<double> stamp_s, const ViewerSettings& 
         view.keyframe_clouds = whole;
     } else if (stamp_s) {
         view.keyframe_clouds = std::max<std::size_t>(now.keyframes, 1);
+    } else if (renderer_.points() == 0) {  // a run without maps
+        view.keyframe_clouds = whole;
     }
     view.color_by_height = settings.colors == "height";
     if (!box_.isEmpty()) {

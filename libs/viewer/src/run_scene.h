@@ -38,11 +38,14 @@ class RunScene {
     const RunData& run() const { return run_; }
     /** None where the truth is not known. */
     const std::vector<TrueError>& errors() const { return errors_; }
+    /** How many times longer than they are errors are drawn. */
+    int errorScale() const { return error_scale_; }
     /** \return nullptr while it is not read */
     const KeyframePicture* picture(std::size_t keyframe) const;
     Eigen::AlignedBox3d box() const { return box_; }
 
   private:
+    void showCloud(std::size_t keyframe, const Vertices& points);
     void showPoses();
     void showTruth();
     void extendPath(const RunData& longer);
@@ -55,6 +58,7 @@ class RunScene {
     Eigen::AlignedBox3d box_;
     Camera camera_;
     std::vector<TrueError> errors_;
+    int error_scale_ = 1;
     std::vector<KeyframePicture> pictures_;  // one a keyframe, empty while not read
     std::optional<double> now_s_;
     double lowest_ceiling_m_ = 2;

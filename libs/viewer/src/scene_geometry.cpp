@@ -17,10 +17,11 @@ struct LineWidth {
     Part part;
     float px;
 };
-constexpr LineWidth line_widths[] = {
+constexpr LineWidth scene_lines[] = {
     {Part::Floor, 1},     {Part::BeforeLoops, 1.5f}, {Part::Covisibility, 1}, {Part::Errors, 1},
-    {Part::Keyframes, 1}, {Part::TruePath, 2},       {Part::Path, 2.5f},      {Part::Loops, 2.5f},
-    {Part::NowCamera, 3}, {Part::Selection, 3},      {Part::Measure, 3}};
+    {Part::Keyframes, 1}, {Part::TruePath, 2},       {Part::Path, 2.5f},      {Part::Loops, 2.5f}};
+/** Never hidden by what is in front of them. */
+constexpr LineWidth marks[] = {{Part::NowCamera, 3}, {Part::Selection, 3}, {Part::Measure, 3}};
 
 void drawRanges(const std::vector<DrawRange>& ranges) {
     std::vector<GLint> firsts;
@@ -69,7 +70,7 @@ void SceneGeometry::setMesh(const Vertices& vertices, const Triangles& triangles
 void SceneGeometry::drawFirst(const Canvas& canvas) {
     clear();
     drawSolids(canvas);
-    drawLines(canvas);
+    for (const auto& [part, width_px] : scene_lines) drawLines(canvas, part, width_px);
 }
 
 void SceneGeometry::prepareSurfaceShader(const Canvas& canvas) {
@@ -109,7 +110,12 @@ void SceneGeometry::drawFaces(const Faces& faces) {
 }
 
 void SceneGeometry::drawLast(const Canvas& canvas) {
-    if (canvas.view.of(Part::FreeSpace) == 0) return;
+    if (canvas.view.of(Part::FreeSpace) > 0) drawFreeSpace(canvas);
+    glDisable(GL_DEPTH_TEST);
+    for (const auto& [part, width_px] : marks) drawLines(canvas, part, width_px);
+}
+
+void SceneGeometry::drawFreeSpace(const Canvas& canvas) {
     prepareSurfaceShader(canvas);
     surface_.set("alpha", free_alpha);
     glEnable(GL_BLEND);
@@ -135,20 +141,18 @@ void SceneGeometry::drawPoints(const Canvas& canvas, const VertexBuffer& points,
     glDisable(GL_CLIP_DISTANCE0);
 }
 
-void SceneGeometry::drawLines(const Canvas& canvas) {
+void SceneGeometry::drawLines(const Canvas& canvas, Part part, float width_px) {
     const SceneView& view = canvas.view;
+    const std::size_t count = std::min(view.of(part), buffer(part).size());
+    if (count == 0) return;
     line_.use();
     line_.set("alpha", 1.f);
     line_.set("clip_from_world", clipFromWorld(view));
     const Eigen::Vector2f size_px = view.size_px.cast<float>();
     line_.set("size_px", size_px);  // so that lines keep their width in the window
-    for (const auto& [part, width_px] : line_widths) {
-        const std::size_t count = std::min(view.of(part), buffer(part).size());
-        if (count == 0) continue;
-        line_.set("width_px", std::max(width_px, static_cast<float>(canvas.reduction)));
-        buffer(part).bind();
-        glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(count));
-    }
+    line_.set("width_px", std::max(width_px, static_cast<float>(canvas.reduction)));
+    buffer(part).bind();
+    glDrawArrays(GL_LINES, 0, static_cast<GLsizei>(count));
 }
 
 }  // namespace rgbd_graphslam

@@ -40,7 +40,7 @@ class SceneGeometry {
      *  \param density share of them that the finished picture has; fewer are drawn larger */
     void drawPoints(const Canvas& canvas, const VertexBuffer& points,
                     const std::vector<DrawRange>& ranges, float spacing_m, double density);
-    /** Free cells, like glass over all that is not transparent. */
+    /** Free cells, like glass over all that is not transparent, and marks over all. */
     void drawLast(const Canvas& canvas);
 
   private:
@@ -54,7 +54,8 @@ class SceneGeometry {
     void prepareSurfaceShader(const Canvas& canvas);
     void drawSolids(const Canvas& canvas);
     void drawFaces(const Faces& faces);
-    void drawLines(const Canvas& canvas);
+    void drawFreeSpace(const Canvas& canvas);
+    void drawLines(const Canvas& canvas, Part part, float width_px);
 
     ShaderProgram surface_, line_;
     std::array<VertexBuffer, static_cast<std::size_t>(Part::Count)> parts_;

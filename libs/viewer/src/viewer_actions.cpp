@@ -38,11 +38,16 @@ std::size_t ViewerWindow::keyframesByNow() const {
     return replay_.now() ? replayAt(run, *replay_.now()).keyframes : run.keyframes.size();
 }
 
-/** The selected keyframe, or the last one by now. */
-void ViewerWindow::showPictures() {
+std::optional<std::size_t> ViewerWindow::keyframeInPanel() const {
     const std::size_t by_now = keyframesByNow();
-    if (by_now == 0) return;
-    showKeyframe(panels_->pictures(), *scene_, selected_.value_or(by_now - 1));
+    if (by_now == 0) return std::nullopt;
+    return selected_.value_or(by_now - 1);
+}
+
+void ViewerWindow::showPictures() {
+    const auto keyframe = keyframeInPanel();
+    if (!keyframe) return;
+    showKeyframe(panels_->pictures(), *scene_, *keyframe);
     panelsChanged();
 }
 

@@ -6,6 +6,7 @@
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <utility>
 
 #include "panel_contents.h"
 #include "rgbd_graphslam/core/atomic_file.h"
@@ -55,17 +56,28 @@ void ViewerWindow::open(RunData run) {
         loader_ = std::make_unique<RecordingLoader>(run.rawlog, run.keyframes);
     }
     all_read_ = !has_recording;
+    camera_known_ = false;
     follow_camera_ = false;
     const auto [first_s, last_s] = timeSpan(run);
     replay_.reset(first_s, last_s);
     panels_->time().setReplayVisible(true);
     panels_->pictures().setLive(false);
     placePanels();
+    showAtOnce("arranging the map ...");
     scene_->show(std::move(run));
     select(std::nullopt);
     fit();
+    panels_->view().nameErrors(scene_->errorScale());
     showRunPlots(panels_->plots(), *scene_);
     showTime();
+    say(summaryOf(*scene_, points()));
+}
+
+/** Before something that takes long. */
+void ViewerWindow::showAtOnce(const std::string& text) {
+    say(text);
+    renderer_->draw(sceneView());
+    drawAll();
 }
 
 bool ViewerWindow::settled() const {
@@ -168,15 +180,24 @@ SceneView ViewerWindow::sceneView() {
     return view;
 }
 
+bool ViewerWindow::hasPictureForPanel() const {
+    const auto keyframe = keyframeInPanel();
+    return keyframe && scene_->picture(*keyframe);
+}
+
 void ViewerWindow::takeRecording() {
     if (!loader_ || all_read_) return;
     RecordingLoader::News news = loader_->take();
     all_read_ = news.finished;
     if (news.camera) {
+        const bool had_picture = hasPictureForPanel();
         scene_->add(std::move(news));
-        showPictures();
-        sceneChanged();
+        if (!had_picture && hasPictureForPanel()) showPictures();
+        // The fused map stays as it is, and need not be drawn anew.
+        const bool shows_keyframe_clouds = replay_.now() || points() == 0;
+        if (shows_keyframe_clouds || !std::exchange(camera_known_, true)) sceneChanged();
     }
+    if (all_read_ && points() == 0) fit();  // now that there is something to see
 }
 
 void ViewerWindow::saveScreenshot(const std::string& path) {

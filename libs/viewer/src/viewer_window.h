@@ -84,12 +84,16 @@ class ViewerWindow : public nanogui::Screen {
     void showPictures();
     void showTime();
     void say(const std::string& text);
+    void showAtOnce(const std::string& text);
     void advanceReplay();
     void moveTo(std::optional<double> stamp_s);
     void play(bool play);
     void stepKeyframe(int step);
     /** How many keyframes are shown. */
     std::size_t keyframesByNow() const;
+    /** The selected one, or the last one by now. */
+    std::optional<std::size_t> keyframeInPanel() const;
+    bool hasPictureForPanel() const;
     void fit();
     void lookDown();
     void toggleFollowing();
@@ -119,7 +123,7 @@ class ViewerWindow : public nanogui::Screen {
     std::unique_ptr<RunScene> scene_;
     std::unique_ptr<RenderTarget> panel_layer_;
     std::unique_ptr<RecordingLoader> loader_;
-    bool all_read_ = true;
+    bool all_read_ = true, camera_known_ = false;
     std::unique_ptr<LiveRun> live_;  // while a run is followed
     std::string live_folder_;
     bool live_panels_changed_ = false;  // what panels show of the run

@@ -57,6 +57,16 @@ void drawOver(NVGcontext* context, nanogui::Widget& widget, const nanogui::Color
     nvgRestore(context);
 }
 
+ColorWidget::ColorWidget(nanogui::Widget* parent, const nanogui::Vector2i& size_px,
+                         const Rgba& color)
+    : nanogui::Widget(parent),
+      wanted_px_(size_px),
+      color_(color[0], color[1], color[2], color[3]) {}
+
+void ColorWidget::draw(NVGcontext* context) {
+    fillRectangle(context, mPos, mSize, color_);
+}
+
 PictureWidget::PictureWidget(nanogui::Widget* parent, const nanogui::Vector2i& size_px)
     : nanogui::Widget(parent), wanted_px_(size_px) {}
 
@@ -110,11 +120,18 @@ PlotWidget::PlotWidget(nanogui::Widget* parent, const nanogui::Vector2i& size_px
     : nanogui::Widget(parent), wanted_px_(size_px) {}
 
 void PlotWidget::show(const std::vector<float>& values) {
-    last_ = values.empty() ? NAN : values.back();
     highest_ = 0;
     for (const float value : values) highest_ = std::fmax(highest_, value);  // passes over gaps
     axis_end_ = axisEnd(values);
-    values_ = thinnedCurve(values, 2 * static_cast<std::size_t>(wanted_px_.x()));
+    curve_ = thinnedCurve(values, 2 * static_cast<std::size_t>(wanted_px_.x()));
+    values_ = values;
+}
+
+float PlotWidget::present() const {
+    if (values_.empty()) return NAN;
+    const bool has_cursor = cursor_ >= 0 && cursor_ <= 1;
+    const auto last = static_cast<float>(values_.size() - 1);
+    return values_[static_cast<std::size_t>(has_cursor ? std::lround(cursor_ * last) : last)];
 }
 
 void PlotWidget::name(const std::string& title, const std::string& unit) {
@@ -140,13 +157,13 @@ void PlotWidget::drawCurve(NVGcontext* context) {
     const float w = static_cast<float>(mSize.x()), x0 = static_cast<float>(mPos.x());
     const float bottom = static_cast<float>(mPos.y() + mSize.y()) - margin_px;
     const float h = static_cast<float>(mSize.y()) - text_px - 2 * margin_px;
-    const auto last = static_cast<float>(std::max<std::size_t>(values_.size(), 2) - 1);
+    const auto last = static_cast<float>(std::max<std::size_t>(curve_.size(), 2) - 1);
     nvgBeginPath(context);
     bool drawing = false;
-    for (std::size_t i = 0; i < values_.size(); ++i) {
+    for (std::size_t i = 0; i < curve_.size(); ++i) {
         const float x = x0 + w * static_cast<float>(i) / last;
-        const float y = bottom - h * std::min(values_[i] / axis_end_, 1.f);
-        if (std::isnan(values_[i])) {
+        const float y = bottom - h * std::min(curve_[i] / axis_end_, 1.f);
+        if (std::isnan(curve_[i])) {
             drawing = false;
         } else if (std::exchange(drawing, true)) {
             nvgLineTo(context, x, y);
@@ -172,7 +189,7 @@ void PlotWidget::drawTexts(NVGcontext* context) {
     write(context, left, top, NVG_ALIGN_LEFT | NVG_ALIGN_TOP, title_);
     if (highest_ <= 0) return;
     std::string text = "max " + number(highest_);
-    if (std::isfinite(last_)) text = number(last_) + ", " + text;
+    if (std::isfinite(present())) text = number(present()) + ", " + text;
     write(context, right, top, NVG_ALIGN_RIGHT | NVG_ALIGN_TOP, text);
 }
 

@@ -15,6 +15,19 @@ namespace rgbd_graphslam {
  *  \param background of labels, which are transparent */
 void drawOver(NVGcontext* context, nanogui::Widget& widget, const nanogui::Color& background);
 
+/** A colour that stands for something. */
+class ColorWidget : public nanogui::Widget {
+  public:
+    ColorWidget(nanogui::Widget* parent, const nanogui::Vector2i& size_px, const Rgba& color);
+
+    nanogui::Vector2i preferredSize(NVGcontext*) const override { return wanted_px_; }
+    void draw(NVGcontext* context) override;
+
+  private:
+    nanogui::Vector2i wanted_px_;
+    nanogui::Color color_;
+};
+
 /** An image with marks. */
 class PictureWidget : public nanogui::Widget {
   public:
@@ -58,12 +71,14 @@ class PlotWidget : public nanogui::Widget {
     void drawCurve(NVGcontext* context);
     void drawCursor(NVGcontext* context);
     void drawTexts(NVGcontext* context);
+    /** The value at the cursor, or the last one. */
+    float present() const;
     std::string number(float value) const;
 
     nanogui::Vector2i wanted_px_;
     std::string title_, unit_;
-    std::vector<float> values_;  // thinned
-    float last_ = NAN, highest_ = 0, axis_end_ = 0;
+    std::vector<float> values_, curve_;  // all, and what is drawn of them
+    float highest_ = 0, axis_end_ = 0;
     float cursor_ = -1;
 };
 

@@ -36,7 +36,7 @@ inline std::string summaryText(const MadeRun& run) {
            ", \"interrupted\": false, \"damage\": null, \"warnings\": " + run.warnings +
            ", \"out_of_order\": 0, \"culled_keyframes\": 0, \"landmarks\": 700, " +
            "\"loop_edges\": " + (run.with_loop ? run.loop_edges : "[]") +
-           ", \"false_loops\": " + run.false_loops +
+           ", \"false_loops\": " + run.false_loops + ", \"ate\": {\"rmse_m\": 0.0123}" +
            ", \"path_m\": 12, \"frames_per_s\": 90, \"cpu_ms_a_frame\": 7, \"maps_wall_s\": 2, " +
            "\"peak_memory_mb\": 200, \"stages\": {\"track\": {\"calls\": 60, \"cpu_ms\": " +
            figures + ", \"wall_ms\": " + figures + "}}}";

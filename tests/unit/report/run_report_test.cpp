@@ -64,6 +64,14 @@ TEST(RunReport, hasItsPictureOfLoopsInAFile) {
     EXPECT_FALSE(std::filesystem::exists(folder / "loops.svg"));
 }
 
+TEST(RunReport, tellsTheSameErrorAsTheRun) {
+    EXPECT_THAT(reportOf(MadeRun()), HasSubstr("<b>12.3 mm</b><span>ATE RMSE"));
+}
+
+TEST(RunReport, tellsTheShareOfAStage) {
+    EXPECT_THAT(reportOf(MadeRun()), HasSubstr("<td>100 %</td><td class=\"bar\">"));
+}
+
 TEST(RunReport, drawsNothingFromOneSessionToTheNext) {
     const std::regex before("<polyline class=\"before\"");
     const auto pieces = [&](const std::string& earlier_sessions) {

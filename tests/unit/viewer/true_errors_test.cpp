@@ -21,5 +21,16 @@ TEST(TrueErrors, arePairsOfTheSameMoment) {
     EXPECT_TRUE(trueErrors({}, truth).empty());
 }
 
+TEST(TrueErrors, areDrawnAsLongAsIsSeenInTheScene) {
+    const auto of = [](double error_m) {
+        return trueErrors({at(1, 0), at(2, 1)}, {at(1, error_m), at(2, 1 - error_m)});
+    };
+    EXPECT_EQ(visibleScale(of(0.007), 24), 20);
+    EXPECT_EQ(visibleScale(of(0.007), 5), 5);
+    EXPECT_EQ(visibleScale(of(0.5), 24), 1);
+    EXPECT_EQ(visibleScale(of(1e-5), 24), 100);
+    EXPECT_EQ(visibleScale({}, 24), 1);
+}
+
 }  // namespace
 }  // namespace rgbd_graphslam

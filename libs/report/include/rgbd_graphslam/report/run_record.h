@@ -40,6 +40,8 @@ struct RunRecord {
     std::size_t out_of_order = 0, landmarks = 0, culled_keyframes = 0;
     double path_m = 0, frames_per_s = 0, cpu_ms_a_frame = 0, maps_wall_s = 0, peak_memory_mb = 0;
     double start_s = 0;  // stamp of the first frame
+    /** As the run has told it, by the true poses nearest in time; nothing without truth. */
+    std::optional<double> ate_rmse_m;
     std::vector<FrameRecord> frames;
     std::vector<StageRecord> stages;
     std::vector<LoopRecord> loops;

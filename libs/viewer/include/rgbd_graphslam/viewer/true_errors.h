@@ -19,4 +19,9 @@ struct TrueError {
  *  \param truth in the estimate's world, at stamps of the estimate, as truth.txt has it */
 std::vector<TrueError> trueErrors(const Trajectory& estimate, const Trajectory& truth);
 
+/** How many times longer than they are lines of errors are seen in a view of the whole scene, their
+ *  root mean square being 1 % of it: 1, 2, 5, 10, ..., 100.
+ *  \param scene_m diagonal of the scene */
+int visibleScale(const std::vector<TrueError>& errors, double scene_m);
+
 }  // namespace rgbd_graphslam
