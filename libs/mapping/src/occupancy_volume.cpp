@@ -6,6 +6,7 @@
 
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/mapping/free_space.h"
+#include "rgbd_graphslam/mapping/surface_planes.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -48,7 +49,7 @@ int samplingStep(const Camera& camera, double voxel_m, double max_range_m) {
 }  // namespace
 
 OccupancyVolume::OccupancyVolume(double resolution_m, double hit_share)
-    : resolution_m_(resolution_m), hit_share_(hit_share), cells_(resolution_m) {
+    : resolution_m_(resolution_m), hit_share_(hit_share), cells_(resolution_m / 2) {
     if (!(resolution_m > 0)) throw Error("the resolution of an octree must be positive");
 }
 
@@ -158,27 +159,12 @@ void OccupancyVolume::addHits(const SE3& T_world_cam, const DepthView& view) {
     }
 }
 
-/** What holds more readings than the voxels around it is where the surface is. */
-bool OccupancyVolume::isSpill(const VoxelIndex& voxel) const {
-    const ColorSum* own = colors_.find(voxelKey(voxel));
-    const auto outweighs = [&](int x, int y, int z) {
-        const ColorSum* other = colors_.find(voxelKey({voxel.x + x, voxel.y + y, voxel.z + z}));
-        return other && other->weight > own->weight;
-    };
-    const bool beside_more = outweighs(-1, 0, 0) || outweighs(1, 0, 0) || outweighs(0, -1, 0) ||
-                             outweighs(0, 1, 0) || outweighs(0, 0, -1) || outweighs(0, 0, 1);
-    if (!beside_more) return false;
-    const auto plane = cells_.planeAt(voxel);
-    const Eigen::Vector3d center =
-        resolution_m_ * (Eigen::Vector3d(voxel.x, voxel.y, voxel.z).array() + 0.5);
-    return plane && !plane->crosses(center, resolution_m_);
-}
-
 void OccupancyVolume::dropSpill() {
+    const SurfacePlanes planes(cells_);
     for (const auto& entry : colors_.entries()) {
         const VoxelIndex voxel = voxelOfKey(entry.key);
         std::int8_t& value = block(voxel).log_odds[indexInBlock(voxel)];
-        if (value >= 0 && isSpill(voxel)) value = unknown;
+        if (value >= 0 && !planes.cross(voxel)) value = unknown;
     }
 }
 

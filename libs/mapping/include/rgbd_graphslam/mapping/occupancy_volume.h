@@ -71,7 +71,6 @@ class OccupancyVolume {
     void addMiss(const VoxelCube& cube);
     void addHits(const SE3& T_world_cam, const DepthView& view);
     void sortReadings(const SE3& T_world_cam, const DepthView& view, int step);
-    bool isSpill(const VoxelIndex& voxel) const;
 
     double resolution_m_;
     double hit_share_;

@@ -1,24 +1,12 @@
-/** Where the surface runs, from the readings of all views together. */
+/** Readings of all views, averaged in small cells. */
 #pragma once
 #include <Eigen/Core>
 #include <array>
-#include <optional>
 
 #include "rgbd_graphslam/mapping/surface_samples.h"
 #include "rgbd_graphslam/mapping/voxel_table.h"
 
 namespace rgbd_graphslam {
-
-/** Points p with normal.dot(p) == offset_m. */
-struct Plane {
-    Eigen::Vector3d normal;  // unit vector
-    double offset_m = 0;
-
-    /** Whether it runs through a cube. */
-    bool crosses(const Eigen::Vector3d& center, double edge_m) const {
-        return std::abs(normal.dot(center) - offset_m) <= edge_m / 2 * normal.cwiseAbs().sum();
-    }
-};
 
 /** One view's readings in a voxel. */
 struct VoxelReadings {
@@ -47,38 +35,28 @@ struct VoxelReadings {
     }
 };
 
-/** Weighted means of readings in cells of half a voxel's edge. A single reading errs by
- * centimetres; the plane through what all views read about a place does not, which tells a voxel
- * that holds surface from one beside it that noise spilled into. */
+/** Weighted means of readings in cells of half a voxel's edge. */
 class SurfaceCells {
   public:
-    explicit SurfaceCells(double voxel_m) : voxel_m_(voxel_m) {}
+    using Cell = VoxelReadings::Cell;
+    using Table = VoxelTable<Cell>;
 
-    double cellSize() const { return voxel_m_ / 2; }
+    explicit SurfaceCells(double cell_m) : cell_m_(cell_m) {}
 
+    double cellSize() const { return cell_m_; }
+
+    /** \param voxel of 2 x 2 x 2 cells */
     void add(const VoxelIndex& voxel, const VoxelReadings& readings);
 
-    /** The plane fitted by moving least squares (Levin, "Mesh-independent surface interpolation",
-     *  2003) to the cells around the mean of a voxel's readings. Nothing where the readings do not
-     *  lie flat, as on thin and small things and at corners. */
-    std::optional<Plane> planeAt(const VoxelIndex& voxel) const;
+    /** The same readings in cells of twice the edge. */
+    SurfaceCells coarser() const;
 
+    const Table& table() const { return cells_; }
     std::size_t bytes() const { return cells_.bytes(); }
 
   private:
-    using Cell = VoxelReadings::Cell;
-    /** From the origin of coordinates, in cells. */
-    static Eigen::Vector3d meanOf(const VoxelIndex& index, const Cell& cell);
-    /** \param middle, radius in cells */
-    std::optional<Plane> planeAround(const Eigen::Vector3d& middle, double radius) const;
-    struct WeightedMean {
-        Eigen::Vector3d mean;  // as by meanOf
-        double weight;         // 0 without readings
-    };
-    WeightedMean meanIn(const VoxelIndex& voxel) const;
-
-    double voxel_m_;
-    VoxelTable<Cell> cells_;
+    double cell_m_;
+    Table cells_;
 };
 
 }  // namespace rgbd_graphslam
