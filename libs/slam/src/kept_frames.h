@@ -1,5 +1,6 @@
 /** Every frame of a run. */
 #pragma once
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -42,7 +43,7 @@ class KeptFrames {
     void load(ByteReader& in, std::size_t keyframes);
 
   private:
-    std::vector<KeptFrame> records_;
+    std::deque<KeptFrame> records_;  // grows without moving
 };
 
 }  // namespace rgbd_graphslam
