@@ -131,7 +131,9 @@ TEST_P(MapOfEvenFrames, anyFrameIsRecognisedAlone) {
     RecordProperty("recognised", std::to_string(recognised) + " of " + std::to_string(frames));
     std::printf("%s: %d of %d recognised alone, CPU p50 %.1f ms, p95 %.1f ms\n", GetParam().name,
                 recognised, frames, percentile(cpu_ms, 0.5), percentile(cpu_ms, 0.95));
+#ifndef __SANITIZE_ADDRESS__  // which takes its own time
     EXPECT_LE(percentile(cpu_ms, 0.95), 50);
+#endif
 }
 
 INSTANTIATE_TEST_SUITE_P(Clips, MapOfEvenFrames, testing::ValuesIn(clips));
