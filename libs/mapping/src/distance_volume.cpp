@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 #include "rgbd_graphslam/core/error.h"
@@ -56,6 +57,24 @@ class ViewFuser {
           step_((T_cam_world_.R * voxel_m).cast<float>()) {}
 
     void update(const VoxelIndex& block_index, Block& block) const {
+        forEachVoxel(block_index, block,
+                     [&](const Eigen::Vector3f& p, Voxel& voxel) { update(p, voxel); });
+    }
+
+    /** Of a block that the view looks through. Where the image's border cuts it off, or readings
+     * are missing, what it holds there may be surface all the same. */
+    void carve(const VoxelIndex& block_index, Block& block, const Trust& trust) const {
+        forEachVoxel(block_index, block, [&](const Eigen::Vector3f& p, Voxel& voxel) {
+            if (voxel.weight == 0) return;
+            const auto pixel = pixelOf(p);
+            if (pixel && depthAt(*pixel) > 0) fuse(voxel, trust.truncation_m, trust.weight);
+        });
+    }
+
+  private:
+    /** \param visit takes a voxel's place in the camera's frame, and the voxel */
+    template <class Visit>
+    void forEachVoxel(const VoxelIndex& block_index, Block& block, const Visit& visit) const {
         const Eigen::Vector3d corner(block_index.x, block_index.y, block_index.z);
         const Eigen::Vector3f first =
             (T_cam_world_ * (block_size * voxel_m_ * corner)).cast<float>();
@@ -64,28 +83,33 @@ class ViewFuser {
             for (int y = 0; y < block_size; ++y) {
                 Eigen::Vector3f p = first + static_cast<float>(y) * step_.col(1) +
                                     static_cast<float>(z) * step_.col(2);
-                for (int x = 0; x < block_size; ++x, ++voxel, p += step_.col(0)) update(p, *voxel);
+                for (int x = 0; x < block_size; ++x, ++voxel, p += step_.col(0)) visit(p, *voxel);
             }
         }
     }
 
-  private:
     void update(const Eigen::Vector3f& p, Voxel& voxel) const {
-        if (p.z() <= 0) return;
-        const Eigen::Vector2f ray = p.head<2>() / p.z();
-        Eigen::Vector2d pixel(camera_.fx * ray.x() + camera_.cx, camera_.fy * ray.y() + camera_.cy);
-        if (!camera_.contains(pixel)) return;
-        if (distorted_) {
-            pixel = camera_.distort(pixel);
-            if (!camera_.contains(pixel)) return;
-        }
-        const float z = depthAt(pixel);
+        const auto pixel = pixelOf(p);
+        if (!pixel) return;
+        const float z = depthAt(*pixel);
         if (z <= 0 || z > view_.max_range_m) return;
         const Trust trust = trustIn(z, voxel_m_, view_.noise);
-        const float distance_m = (z - p.z()) * std::sqrt(ray.squaredNorm() + 1);
+        const float distance_m = (z - p.z()) * (p.norm() / p.z());
         if (distance_m < -trust.truncation_m) return;
         fuse(voxel, std::min(distance_m, trust.truncation_m), trust.weight);
-        if (distance_m < trust.truncation_m) fuse(voxel, colorAt(pixel));
+        if (distance_m < trust.truncation_m) fuse(voxel, colorAt(*pixel));
+    }
+
+    /** Where the sensor sees a place; nothing outside of its image. */
+    std::optional<Eigen::Vector2d> pixelOf(const Eigen::Vector3f& p) const {
+        if (p.z() <= 0) return std::nullopt;
+        const Eigen::Vector2f ray = p.head<2>() / p.z();
+        Eigen::Vector2d pixel(camera_.fx * ray.x() + camera_.cx, camera_.fy * ray.y() + camera_.cy);
+        if (!camera_.contains(pixel)) return std::nullopt;
+        if (!distorted_) return pixel;
+        pixel = camera_.distort(pixel);
+        if (!camera_.contains(pixel)) return std::nullopt;
+        return pixel;
     }
 
     cv::Vec3b colorAt(const Eigen::Vector2d& pixel) const {
@@ -170,8 +194,9 @@ std::vector<std::uint64_t> DistanceVolume::takeBlocksNearReadings(const SE3& T_w
     return taken;
 }
 
-/** Blocks that the view looks through whole. Those near its readings know better already. */
+/** Blocks that the view looks through. Those near its readings know better already. */
 void DistanceVolume::carve(const SE3& T_world_cam, const DepthView& view) {
+    const ViewFuser fuser(T_world_cam, view, voxel_m_);
     const double block_m = block_size * voxel_m_;
     const auto carve_block = [&](const VoxelIndex& index) {
         const auto* found = blocks_.find(voxelKey(index));
@@ -180,8 +205,7 @@ void DistanceVolume::carve(const SE3& T_world_cam, const DepthView& view) {
             block_m * (Eigen::Vector3d(index.x, index.y, index.z).array() + 0.5);
         const Trust trust =
             trustIn(T_world_cam.R.col(2).dot(center - T_world_cam.t), voxel_m_, view.noise);
-        for (Voxel& voxel : (*found)->voxels)
-            if (voxel.weight > 0) fuse(voxel, trust.truncation_m, trust.weight);
+        fuser.carve(index, **found, trust);
     };
     forEachFreeCube(T_world_cam, view, block_m, [&](const VoxelCube& cube) {
         const auto [x0, y0, z0] = cube.corner;

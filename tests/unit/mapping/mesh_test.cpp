@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <set>
 
 #include "../../support/problem_of.h"
 #include "../../support/random_inputs.h"
@@ -111,6 +112,30 @@ double volumeInside(const PlyModel& mesh) {
             static_cast<double>(mesh.vertices[a].cross(mesh.vertices[b]).dot(mesh.vertices[c])) / 6;
     }
     return volume;
+}
+
+/** Floor a little above the voxels' plane, and a wall far away. */
+double castFloor(const Eigen::Vector3d& o, const Eigen::Vector3d& d) {
+    constexpr double floor_m = 0.005, wall_m = 8;
+    const double to_wall = (wall_m - o.x()) / d.x(), to_floor = (floor_m - o.z()) / d.z();
+    return d.z() < 0 ? std::min(to_floor, to_wall) : to_wall;
+}
+
+/** Blocks that the image's lower border cuts off are looked through above the floor only. */
+TEST(Mesh, aFloorThatLeavesTheImageKeepsItsSurface) {
+    std::vector<SE3> views;
+    for (int i = 0; i < 30; ++i) views.push_back(lookingAlong({0.1 * i, 0, 0.4}, 0, 0));
+    const PlyModel mesh = meshOf(castFloor, views);
+    constexpr double tile_m = 0.05;
+    std::set<std::pair<int, int>> covered;
+    for (const Eigen::Vector3f& p : mesh.vertices) {
+        if (std::abs(p.z()) < voxel_m)
+            covered.insert({std::lround(p.x() / tile_m), std::lround(p.y() / tile_m)});
+    }
+    int missing = 0;
+    for (int x = 40; x < 70; ++x)  // 2 to 3.5 m: seen far ahead first, and at the border at last
+        for (int y = -4; y <= 4; ++y) missing += 1 - static_cast<int>(covered.count({x, y}));
+    EXPECT_EQ(missing, 0);
 }
 
 TEST(Mesh, ofASphereIsClosedAndRound) {
