@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "rgbd_graphslam/core/error.h"
 
@@ -75,34 +76,39 @@ class LegPlanner {
         planner_.getProfiler().disable();
         planner_.initialize();
         for (const TPoint2D& p : map.borders) input_.obstacles_points.insertPoint(p.x, p.y, 0);
-        mrpt::random::getRandomGenerator().randomize(seed);
     }
 
-    /** Appends the poses after `from`. */
-    void plan(const TPose2D& from, const TPoint2D& to, std::vector<TPose2D>& poses) {
+    /** \return the poses after `from`; nothing when no motion was found */
+    std::optional<std::vector<TPose2D>> plan(const TPose2D& from, const TPoint2D& to) {
         input_.start_pose = from;
         input_.goal_pose = TPose2D(to.x, to.y, std::atan2(to.y - from.y, to.x - from.x));
         input_.world_bbox_min = TPose2D(std::min(from.x, to.x) - around_leg_m,
                                         std::min(from.y, to.y) - around_leg_m, -M_PI);
         input_.world_bbox_max = TPose2D(std::max(from.x, to.x) + around_leg_m,
                                         std::max(from.y, to.y) + around_leg_m, M_PI);
+        // Anew for each leg: how many numbers one takes that is given up depends on the clock.
+        mrpt::random::getRandomGenerator().randomize(seed);
         mrpt::nav::PlannerRRT_SE2_TPS::TPlannerResult result;
         planner_.solve(input_, result);
-        if (!result.success) {
-            throw Error("PlannerRRT_SE2_TPS found no motion from " + text({from.x, from.y}) +
-                            " to " + text(to),
-                        "raise [DriveOptions] rrt_limit_s or lower planning_margin_m");
-        }
+        if (!result.success) return std::nullopt;
         mrpt::nav::TMoveTreeSE2_TP::path_t path;
         result.move_tree.backtrackPath(result.best_goal_node_id, path);
         path.pop_front();
+        std::vector<TPose2D> poses;
         for (const auto& node : path) poses.push_back(node.state);
+        return poses;
     }
 
   private:
     mrpt::nav::PlannerRRT_SE2_TPS planner_;
     mrpt::nav::PlannerRRT_SE2_TPS::TPlannerInput input_;
 };
+
+Error noMotion(const TPose2D& from, const TPoint2D& to) {
+    return Error(
+        "PlannerRRT_SE2_TPS found no motion from " + text({from.x, from.y}) + " to " + text(to),
+        "raise [DriveOptions] rrt_limit_s or lower planning_margin_m");
+}
 
 }  // namespace
 
@@ -135,10 +141,20 @@ std::vector<TPose2D> planMotion(const NavigationMap& map, const TPose2D& start, 
                                 const RobotBody& body, const DriveOptions& options,
                                 const mrpt::config::CConfigFileBase& config,
                                 const std::string& cache_folder) {
-    LegPlanner legs(map, body, options, config, cache_folder);
+    LegPlanner planner(map, body, options, config, cache_folder);
     std::vector<TPose2D> poses{start};
+    std::vector<std::size_t> leg_starts;
     for (const TPoint2D& end : legEnds(start, route, options.leg_m)) {
-        legs.plan(TPose2D(poses.back()), end, poses);
+        auto leg = planner.plan(TPose2D(poses.back()), end);
+        // Where the leg before has ended too near to a wall to turn, the two are planned as one.
+        while (!leg && !leg_starts.empty()) {
+            poses.resize(leg_starts.back());
+            leg_starts.pop_back();
+            leg = planner.plan(TPose2D(poses.back()), end);
+        }
+        if (!leg) throw noMotion(poses.back(), end);
+        leg_starts.push_back(poses.size());
+        poses.insert(poses.end(), leg->begin(), leg->end());
     }
     return poses;
 }
