@@ -84,16 +84,25 @@ void LiveServer::post(std::function<std::string()> encode) {
     ::eventfd_write(wake_.get(), 1);
 }
 
+void LiveServer::pictureSent() {
+    wanted_ = false;
+    ::eventfd_write(wake_.get(), 1);
+}
+
 void LiveServer::serve() {
     while (!stop_) {
-        const short viewer_events = pending_.empty() ? POLLIN : POLLIN | POLLOUT;
-        pollfd events[] = {{wake_.get(), POLLIN, 0},
-                           {viewer_ ? -1 : listener_.get(), POLLIN, 0},
-                           {viewer_.get(), viewer_events, 0}};  // those below 0 are passed over
+        // Who asks without end is heard once a picture.
+        const short asks = wanted_ ? 0 : POLLIN, takes = pending_.empty() ? 0 : POLLOUT;
+        pollfd events[] = {
+            {wake_.get(), POLLIN, 0},
+            {viewer_ ? -1 : listener_.get(), POLLIN, 0},
+            {viewer_.get(), static_cast<short>(asks | takes), 0}};  // those below 0 are passed over
         if (::poll(events, 3, -1) < 0 && errno != EINTR) return;
         if (events[0].revents) takeMessage();
         if (events[1].revents) acceptViewer();
-        if (events[2].revents & (POLLIN | POLLHUP | POLLERR)) {
+        if (events[2].revents & (POLLHUP | POLLERR)) {
+            dropViewer();
+        } else if (events[2].revents & POLLIN) {
             hearViewer();
         } else if (!pending_.empty()) {
             sendSome();

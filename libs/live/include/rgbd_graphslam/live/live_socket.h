@@ -34,7 +34,7 @@ class LiveServer {
     bool ready() const { return ready_.load(std::memory_order_relaxed); }
     /** Whether the viewer has asked for a picture since the last pictureSent(). */
     bool pictureWanted() const { return wanted_.load(std::memory_order_relaxed); }
-    void pictureSent() { wanted_ = false; }
+    void pictureSent();
 
     /** Sends one message, if ready() still holds.
      *  \param encode gives its bytes; runs in the server's thread, or not at all */
