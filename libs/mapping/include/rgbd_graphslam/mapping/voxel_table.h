@@ -46,10 +46,12 @@ class VoxelTable {
 
     /** The cell of a key; a new one is value-initialised. */
     Cell& operator[](std::uint64_t key) {
-        std::uint32_t& number = cube(key).number[within(key)];
+        Cube& home = cube(key);
+        std::uint32_t& number = home.number[within(key)];
         if (number == 0) {
             entries_.push_back({key, Cell{}});
             number = static_cast<std::uint32_t>(entries_.size());
+            home.filled |= std::uint64_t{1} << within(key);
         }
         return entries_[number - 1].cell;
     }
@@ -93,6 +95,7 @@ class VoxelTable {
   private:
     struct Cube {
         std::uint64_t key;
+        std::uint64_t filled = 0;                // a bit for each number that is not 0
         std::array<std::uint32_t, 64> number{};  // of the entry, from 1; 0 = empty
     };
     static constexpr std::uint64_t low_bits = 3ull << 42 | 3ull << 21 | 3ull;
@@ -102,17 +105,27 @@ class VoxelTable {
         return (key >> 38 & 48) | (key >> 19 & 12) | (key & 3);
     }
 
+    /** Bits of the voxels of a cube that lie in a box. */
+    static std::uint64_t bitsWithin(const VoxelIndex& corner, const VoxelIndex& low,
+                                    const VoxelIndex& high) {
+        constexpr std::uint64_t each_column = 0x1111111111111111, each_layer = 0x0001000100010001;
+        const auto range = [](int from, int to, int bits) {
+            const int first = std::max(from, 0) * bits, end = (std::min(to, 3) + 1) * bits;
+            return ~std::uint64_t{0} << first & ~std::uint64_t{0} >> (64 - end);
+        };
+        return range(low.x - corner.x, high.x - corner.x, 16) &
+               each_layer * range(low.y - corner.y, high.y - corner.y, 4) &
+               each_column * range(low.z - corner.z, high.z - corner.z, 1);
+    }
+
     template <class Visit>
     void visitCube(const Cube& cube, const VoxelIndex& corner, const VoxelIndex& low,
                    const VoxelIndex& high, Visit& visit) const {
-        const auto last = [](int from, int to) { return std::min(from + 3, to); };
-        for (int x = std::max(corner.x, low.x); x <= last(corner.x, high.x); ++x) {
-            for (int y = std::max(corner.y, low.y); y <= last(corner.y, high.y); ++y) {
-                for (int z = std::max(corner.z, low.z); z <= last(corner.z, high.z); ++z) {
-                    const std::uint32_t number = cube.number[within(voxelKey({x, y, z}))];
-                    if (number) visit(VoxelIndex{x, y, z}, entries_[number - 1].cell);
-                }
-            }
+        std::uint64_t left = cube.filled & bitsWithin(corner, low, high);
+        for (; left != 0; left &= left - 1) {
+            const int i = __builtin_ctzll(left);
+            visit(VoxelIndex{corner.x + (i >> 4), corner.y + (i >> 2 & 3), corner.z + (i & 3)},
+                  entries_[cube.number[i] - 1].cell);
         }
     }
 
