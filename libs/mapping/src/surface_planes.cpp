@@ -60,18 +60,19 @@ Eigen::Vector3d meanOf(const VoxelIndex& index, const SurfaceCells::Cell& cell) 
 SurfacePlanes::SurfacePlanes(const SurfaceCells& cells)
     : voxel_m_(2 * cells.cellSize()),
       cells_(cells),
-      coarser_{cells.coarser(), coarser_[0].coarser()} {}
+      coarse_(cells.coarser()),
+      coarsest_(coarse_.coarser()) {}
 
 bool SurfacePlanes::cross(const VoxelIndex& voxel) const {
     constexpr double half_a_voxel = 0.5;
     const Mean own = meanIn(voxel);
     const double sigma = sigmaVoxels(own.weight);
     const Eigen::Vector3d center(voxel.x + 0.5, voxel.y + 0.5, voxel.z + 0.5);
+    const SurfaceCells* const levels[] = {&cells_, &coarse_, &coarsest_};
     for (const auto& [level, radius, least_sigma] : neighbourhoods) {
         if (sigma < least_sigma) break;
-        const SurfaceCells& cells = level == 0 ? cells_ : coarser_[level - 1];
         const Eigen::Vector3d middle = own.position / (1 << level);
-        if (const auto plane = planeAround(cells, middle, radius))
+        if (const auto plane = planeAround(*levels[level], middle, radius))
             return plane->crosses(voxel_m_ * center, voxel_m_);
     }
     return sigma <= half_a_voxel;

@@ -214,11 +214,10 @@ SceneView RunScene::viewAt(std::optional<double> stamp_s, const ViewerSettings& 
         put(part, true, whole);
     view.points = settings.points;
     // Clouds of a running SLAM are there before the map that names their keyframes.
-    if (live_revision_) {
-        view.keyframe_clouds = whole;
-    } else if (stamp_s) {
+    const bool is_replay = stamp_s && !live_revision_, has_maps = renderer_.points() > 0;
+    if (is_replay) {
         view.keyframe_clouds = std::max<std::size_t>(now.keyframes, 1);
-    } else if (renderer_.points() == 0) {  // a run without maps
+    } else if (live_revision_ || !has_maps) {
         view.keyframe_clouds = whole;
     }
     view.color_by_height = settings.colors == "height";

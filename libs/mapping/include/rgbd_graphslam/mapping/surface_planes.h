@@ -1,7 +1,6 @@
 /** Where the surface runs, from the readings of all views together. */
 #pragma once
 #include <Eigen/Core>
-#include <array>
 #include <optional>
 
 #include "rgbd_graphslam/mapping/surface_cells.h"
@@ -48,7 +47,7 @@ class SurfacePlanes {
 
     double voxel_m_;
     const SurfaceCells& cells_;
-    std::array<SurfaceCells, 2> coarser_;  // of one voxel's edge, and of two
+    SurfaceCells coarse_, coarsest_;  // of one voxel's edge, and of two
 };
 
 }  // namespace rgbd_graphslam
