@@ -17,6 +17,9 @@ class KeyframeDecision {
     /** \param frames_since_keyframe frames after the last keyframe, this one included */
     bool wants(const SlamMap& map, const LocatedFrame& located, int frames_since_keyframe);
 
+    /** The keyframe whose view the last frames were compared with. */
+    int reference() const { return keyframe_; }
+
     /** Compares with this keyframe from now on. */
     void reset(const Keyframe& keyframe);
 
@@ -26,6 +29,9 @@ class KeyframeDecision {
     void load(ByteReader& in, std::size_t keyframes);
 
   private:
+    bool isFar(const SE3& motion, double median_depth_m) const;
+    bool turnsToKnown(const SlamMap& map, const LocatedFrame& located);
+
     const KeyframeOptions& options_;
     int keyframe_ = 0;
     double median_depth_m_ = 1;

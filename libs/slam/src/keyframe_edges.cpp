@@ -57,10 +57,15 @@ PoseEdge KeyframeEdges::odometry(int keyframe) const {
     return edge;
 }
 
+/** Whether the keyframe before tells what a keyframe's ties are worth. */
+bool KeyframeEdges::follows(int keyframe) const {
+    return map_.keyframe(keyframe).link == Link::Tracked && !map_.keyframe(keyframe - 1).culled;
+}
+
 /** Keyframes before the last one that see the same as `keyframe`. */
 std::vector<Covisibility> KeyframeEdges::fartherThanLast(int keyframe) const {
-    const bool follows = map_.keyframe(keyframe).link == Link::Tracked;
-    auto farther = map_.covisible(keyframe, follows ? strong_covisibility : fewest_that_tie);
+    auto farther =
+        map_.covisible(keyframe, follows(keyframe) ? strong_covisibility : fewest_that_tie);
     const auto too_near = [&](const Covisibility& c) { return c.keyframe >= keyframe - 1; };
     farther.erase(std::remove_if(farther.begin(), farther.end(), too_near), farther.end());
     return farther;
@@ -70,11 +75,11 @@ std::vector<Covisibility> KeyframeEdges::fartherThanLast(int keyframe) const {
  *  tells what they are worth. */
 std::vector<PoseEdge> KeyframeEdges::covisibility(const PoseEdge& odometry) const {
     const int keyframe = odometry.to;
-    const bool follows = map_.keyframe(keyframe).link == Link::Tracked;
+    const bool as_odometry = follows(keyframe);
     std::vector<PoseEdge> edges;
     for (const Covisibility& c : fartherThanLast(keyframe)) {
         PoseEdge edge = odometry;
-        if (!follows) {
+        if (!as_odometry) {
             edge.information = informationOf(keyframe, sharedLandmarks(keyframe, c.keyframe));
         }
         edge.from = c.keyframe;

@@ -29,6 +29,7 @@ class KeyframeEdges {
     std::vector<std::pair<int, int>> covisiblePairs() const;
 
   private:
+    bool follows(int keyframe) const;
     std::vector<Covisibility> fartherThanLast(int keyframe) const;
     std::vector<PoseEdge> covisibility(const PoseEdge& odometry) const;
     std::vector<int> sharedLandmarks(int keyframe, int other) const;

@@ -28,11 +28,11 @@ void TrackerOptions::describe(OptionVisitor& v) {
 
 void KeyframeOptions::describe(OptionVisitor& v) {
     v.real("max_translation_ratio", max_translation_ratio, 0.001, 10, "",
-           "Motion since the last keyframe, as a share of the median depth, that makes a new one");
+           "Motion from every keyframe of a view, as a share of the median depth, that makes one");
     v.real("max_rotation_rad", max_rotation_rad, 0.001, 3.2, "rad",
-           "Rotation since the last keyframe that makes a new one");
+           "Rotation from every keyframe of a view that makes one");
     v.real("min_tracked_share", min_tracked_share, 0.01, 1, "",
-           "Share of the last keyframe's landmarks below which a new one is made");
+           "Share of the landmarks tracked at the nearest keyframe below which one is made");
     v.real("min_translation_ratio", min_translation_ratio, 0, 10, "",
            "Less motion than this, as a share of the median depth, makes no keyframe");
     v.real("min_rotation_rad", min_rotation_rad, 0, 3.2, "rad",

@@ -106,6 +106,7 @@ void VisualSlam::Implementation::keep(Frame frame, LocatedFrame located, KeptFra
     const bool proves_a_place = record.origin == FrameOrigin::Recovered;
     if (decision.wants(map, located, frames_since_keyframe) || proves_a_place) {
         handOver();
+        if (decision.reference() != map.keyframes().back().id) link = Link::None;
         reference = insertKeyframe(frame, located, map.keyframe(reference).part);
         record.keyframe = reference;
         located.landmarks = map.keyframe(reference).landmarks;

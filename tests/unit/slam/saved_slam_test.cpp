@@ -26,8 +26,8 @@ std::string saved(const VisualSlam& slam) {
     return out.bytes();
 }
 
-std::unique_ptr<VisualSlam> loaded(const std::string& bytes) {
-    auto slam = std::make_unique<VisualSlam>(SlamOptions{}, Camera{});
+std::unique_ptr<VisualSlam> loaded(const std::string& bytes, const SlamOptions& options) {
+    auto slam = std::make_unique<VisualSlam>(options, Camera{});
     ByteReader in(bytes);
     slam->load(in);
     EXPECT_EQ(in.left(), 0u);
@@ -46,20 +46,23 @@ bool sameFrames(const VisualSlam& a, const VisualSlam& b) {
 }
 
 /** One run is never interrupted; another is saved and loaded again every `interval` frames. */
-void expectTheSame(const std::vector<Frame>& film, int interval,
-                   std::unique_ptr<VisualSlam> whole = std::make_unique<VisualSlam>(SlamOptions{},
-                                                                                    Camera{})) {
-    auto broken = loaded(saved(*whole));
+void expectTheSame(const std::vector<Frame>& film, int interval, std::unique_ptr<VisualSlam> whole,
+                   const SlamOptions& options = {}) {
+    auto broken = loaded(saved(*whole), options);
     for (std::size_t i = 0; i < film.size(); ++i) {
         step(*whole, film[i]);
         step(*broken, film[i]);
-        if (i % interval == 0) broken = loaded(saved(*broken));
+        if (i % interval == 0) broken = loaded(saved(*broken), options);
     }
     EXPECT_TRUE(saved(*whole) == saved(*broken));
     whole->finish();
     broken->finish();
     EXPECT_TRUE(sameFrames(*whole, *broken));
     EXPECT_TRUE(saved(*whole) == saved(*broken));
+}
+
+void expectTheSame(const std::vector<Frame>& film, int interval, const SlamOptions& options = {}) {
+    expectTheSame(film, interval, std::make_unique<VisualSlam>(options, Camera{}), options);
 }
 
 class Film {
@@ -107,14 +110,17 @@ TEST(SavedSlam, goesOnThroughALoop) {
 
 TEST(SavedSlam, goesOnWhereKeyframesAndLandmarksGo) {
     Film film;
-    for (int i = 0; i < 3 * 80; ++i) film.show(onCircle(pi / 4 * (1 - std::cos(2 * pi * i / 80))));
-    VisualSlam slam(SlamOptions{}, Camera{});
+    for (int i = 0; i < 2 * 80; ++i) film.show(onCircle(pi / 4 * (1 - std::cos(2 * pi * i / 80))));
+    SlamOptions dense;
+    dense.keyframes.max_translation_ratio = dense.keyframes.min_translation_ratio;
+    dense.keyframes.max_rotation_rad = dense.keyframes.min_rotation_rad;
+    VisualSlam slam(dense, Camera{});
     for (const Frame& frame : film.frames()) step(slam, frame);
     const auto keyframes = slam.keyframes();
     ASSERT_GT(std::count_if(keyframes.begin(), keyframes.end(),
                             [](const KeyframeView& k) { return k.culled; }),
               5);
-    expectTheSame(film.frames(), 12);
+    expectTheSame(film.frames(), 12, dense);
 }
 
 TEST(SavedSlam, goesOnWhileLostAndInANewPart) {

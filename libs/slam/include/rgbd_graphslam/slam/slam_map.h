@@ -49,7 +49,7 @@ enum class Link : std::uint8_t {
     Tracked,
     /** By a weak measurement of motion. */
     Weak,
-    /** Not at all: the camera was lost, or the recording is another. */
+    /** Not at all: the camera was lost, the recording is another, or known views lie between. */
     None,
 };
 
