@@ -103,6 +103,23 @@ TestFolder* FaultResume::folder_ = nullptr;
 Files* FaultResume::finished_ = nullptr;
 double FaultResume::run_s_ = 0;
 
+TEST_F(FaultResume, aCameraThatStandsStillIsSavedAsWell) {
+    writeFilm(*folder_ / "still.rawlog", 0, 250, 0);
+    const ProgramResult result = runProgram(
+        "rgbd-slam", inQuotes(RGBD_SOURCE_DIR "/ini/default.ini") + " " +
+                         inQuotes(*folder_ / "still.rawlog") + " -o " + inQuotes(*folder_ / "out") +
+                         " --verbose --no-maps --set RunOptions.checkpoint_keyframes=1");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(readText(*folder_ / "out/summary.json"), HasSubstr("\"keyframes\": 1,"));
+    int checkpoints = 0;
+    const std::string said = result.out + result.err;
+    for (auto at = said.find("checkpoint:"); at != std::string::npos;
+         at = said.find("checkpoint:", at + 1)) {
+        ++checkpoints;
+    }
+    EXPECT_EQ(checkpoints, 3);
+}
+
 TEST_F(FaultResume, killedAtAnyMoment) {
     KillMoments moments(run_s_);
     int resumed = 0;

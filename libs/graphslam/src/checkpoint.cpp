@@ -105,10 +105,10 @@ Checkpoint readCheckpoint(const std::string& out_folder) {
     }
 }
 
-CheckpointWriter::CheckpointWriter(const SlamJob& job, std::size_t keyframes)
+CheckpointWriter::CheckpointWriter(const SlamJob& job, std::size_t progress)
     : job_(job),
       interval_(job.localises() ? 0 : job.options.run.checkpoint_keyframes),
-      last_(keyframes) {
+      last_(progress) {
     job_.rawlog = fs::absolute(job.rawlog).lexically_normal().string();
     if (!job.map_folder.empty()) {
         job_.map_folder = fs::absolute(job.map_folder).lexically_normal().string();
@@ -120,14 +120,14 @@ CheckpointWriter::~CheckpointWriter() {
     wait();
 }
 
-bool CheckpointWriter::due(std::size_t keyframes) const {
+bool CheckpointWriter::due(std::size_t progress) const {
     // A map's bytes grow with it: a tenth more keeps the cost of all checkpoints in proportion.
-    return enabled() && keyframes >= last_ + std::max(interval_, last_ / 10);
+    return enabled() && progress >= last_ + std::max(interval_, last_ / 10);
 }
 
-void CheckpointWriter::write(std::size_t keyframes, std::string state) {
+void CheckpointWriter::write(std::size_t progress, std::string state) {
     wait();
-    last_ = keyframes;
+    last_ = progress;
     writing_ = std::async(std::launch::async, [this, state = std::move(state)]() mutable {
         writeSealed(checkpointPath(job_.out_folder), checkpoint_file,
                     encoded({job_, rawlog_, std::move(state)}));

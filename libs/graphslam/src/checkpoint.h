@@ -37,15 +37,16 @@ Checkpoint readCheckpoint(const std::string& out_folder);
  * goes on without. */
 class CheckpointWriter {
   public:
-    /** \param keyframes there are already; those that come make the next checkpoint due */
-    CheckpointWriter(const SlamJob& job, std::size_t keyframes);
+    /** \param progress of the run as it begins, as RunState::progress(): what comes makes the next
+     *         checkpoint due */
+    CheckpointWriter(const SlamJob& job, std::size_t progress);
     /** Waits for the last one to be written. */
     ~CheckpointWriter();
 
     bool enabled() const { return interval_ > 0; }
-    bool due(std::size_t keyframes) const;
+    bool due(std::size_t progress) const;
     /** Waits for the one before. \param state as Checkpoint::state */
-    void write(std::size_t keyframes, std::string state);
+    void write(std::size_t progress, std::string state);
     /** The job is done. */
     void remove();
 

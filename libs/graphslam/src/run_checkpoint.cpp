@@ -91,7 +91,7 @@ void writeCheckpoint(const RunState& run, CheckpointWriter& writer) {
     std::string state = encodeRun(run);
     sayDetail("checkpoint: " + std::to_string(state.size() / 1000) + " kB in " +
               std::to_string(clock.cpuMs()) + " ms");
-    writer.write(run.T_previous_keyframe.size(), std::move(state));
+    writer.write(run.progress(), std::move(state));
 }
 
 void goOnFromCheckpoint(RunState& run) {

@@ -14,7 +14,8 @@ void RunOptions::describe(OptionVisitor& v) {
               "Stop tracking at as much and write the map, which takes some more; 0 = never");
     v.integer(
         "checkpoint_keyframes", checkpoint_keyframes, 0, 1000000000, "keyframes",
-        "Write a checkpoint for --resume after as many new ones, or a tenth of all; 0 = never");
+        "Write a checkpoint for --resume after as many new ones (100 frames count as one) or a "
+        "tenth of all; 0 = never");
     v.flag("dense_maps", dense_maps, "Build points, octree and grid after tracking");
 }
 

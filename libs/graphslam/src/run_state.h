@@ -38,6 +38,9 @@ struct RunState {
     bool apart(int map_part) const { return map_part != part; }
     /** Whether where it was seen from is known in the map that is written. */
     bool hasPlace(const TrackedFrame& frame) const;
+    /** What a kill would lose, in keyframes: a place known already makes none, but tracking goes
+     * on. */
+    std::size_t progress() const { return T_previous_keyframe.size() + frames_read / 100; }
     /** Frames that have a place. */
     Trajectory located() const;
     /** Stamps of all other frames, rising. */

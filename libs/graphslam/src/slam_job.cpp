@@ -47,7 +47,7 @@ JobReport runSlamJob(const SlamJob& job) {
     RunState run(job, std::move(start));
     TrackingLoop loop(run);
     if (job.resume) goOnFromCheckpoint(run);
-    CheckpointWriter checkpoints(job, run.T_previous_keyframe.size());
+    CheckpointWriter checkpoints(job, run.progress());
     if (!job.resume) checkpoints.remove();  // of an earlier run
     if (job.view) launchViewer(job.out_folder);
     loop.track(checkpoints);

@@ -28,7 +28,7 @@ void TrackingLoop::track(CheckpointWriter& checkpoints) {
         checkLimits();
         report.tracking_wall_s = earlier_wall_s + 1e-3 * clock.wallMs();
         report.tracking_cpu_s = earlier_cpu_s + processCpuSeconds() - cpu_before;
-        if (checkpoints.due(run_.T_previous_keyframe.size())) writeCheckpoint(run_, checkpoints);
+        if (checkpoints.due(run_.progress())) writeCheckpoint(run_, checkpoints);
         progress.expect(run_.stream.expectedFrames());
         progress.update(frame->index + 1, progressNote());
     }
