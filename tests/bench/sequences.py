@@ -30,7 +30,7 @@ class Sequence:
         self.rawlog.parent.mkdir(parents=True, exist_ok=True)
         part = self.rawlog.with_suffix(".part")
         subprocess.run(
-            [programs / "tum2rawlog", self.folder, part, "--quiet", *self.import_options],
+            [programs / "rgbd-import", self.folder, part, "--quiet", *self.import_options],
             check=True)
         part.rename(self.rawlog)
 
@@ -47,7 +47,7 @@ def read_ini(name):
 
 
 def _camera_options(clip, name, work):
-    """Options for tum2rawlog; writes the camera's file where a pinhole is given."""
+    """Options for rgbd-import; writes the camera's file where a pinhole is given."""
     if "camera" in clip:
         return ["--camera", clip["camera"]]
     fx, fy, cx, cy = clip["pinhole"].split()

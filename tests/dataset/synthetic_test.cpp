@@ -1,4 +1,4 @@
-/** The whole chain on synthetic sequences, whose truth is exact: rgbd-synth, tum2rawlog, rgbd-slam,
+/** The whole chain on synthetic sequences, whose truth is exact: rgbd-synth, rgbd-import, rgbd-slam,
  *  rgbd-eval. */
 #include <gtest/gtest.h>
 

@@ -18,7 +18,7 @@ class FaultImport : public ::testing::Test {
     void SetUp() override { small_sequence::make(folder_, "s", 4); }
 
     ProgramResult import(const std::string& options = "") const {
-        return runProgram("tum2rawlog",
+        return runProgram("rgbd-import",
                           "'" + folder_ / "s" + "' '" + rawlog() + "' --quiet " + options);
     }
 
@@ -214,7 +214,7 @@ TEST_F(FaultImport, unsortedAndRepeatedStampsAreSortedAndSaid) {
 TEST_F(FaultImport, wrongArguments) {
     EXPECT_NE(import("--depth-units -3").exit_code, 0);
     EXPECT_NE(import("--max-difference soon").exit_code, 0);
-    EXPECT_NE(runProgram("tum2rawlog", "").exit_code, 0);
+    EXPECT_NE(runProgram("rgbd-import", "").exit_code, 0);
     expectNothingWritten();
 }
 
@@ -223,18 +223,18 @@ TEST_F(FaultImport, unwritableOutput) {
     folder_.write("file", "x");
     for (const std::string option : {"", " --compact"}) {
         const ProgramResult result =
-            runProgram("tum2rawlog", "'" + folder_ / "s" + "' '" + folder_ / "file/out.rawlog" +
+            runProgram("rgbd-import", "'" + folder_ / "s" + "' '" + folder_ / "file/out.rawlog" +
                                          "' --quiet" + option);
         expectRefused(result, "cannot make the folder");
     }
-    expectRefused(runProgram("tum2rawlog", "'" + folder_ / "s" + "' '" + folder_ / "s" + "' -q"),
+    expectRefused(runProgram("rgbd-import", "'" + folder_ / "s" + "' '" + folder_ / "s" + "' -q"),
                   "is a folder");
 }
 
 TEST_F(FaultImport, fullDisk) {
     // The shell's file size limit stands for a full disk; SIGXFSZ ignored turns it into an error.
     for (const std::string option : {"", " --small"}) {
-        const std::string program = "'" RGBD_BINARY_DIR "/bin/tum2rawlog' '" + folder_ / "s" +
+        const std::string program = "'" RGBD_BINARY_DIR "/bin/rgbd-import' '" + folder_ / "s" +
                                     "' '" + rawlog() + "' -q" + option + " 2>'" + folder_ / "err" +
                                     "'";
         const int status = std::system(
@@ -270,7 +270,7 @@ class FaultArchive : public FaultImport {
     std::string archive() const { return folder_ / "freiburg1.tgz"; }
 
     ProgramResult importArchive() const {
-        return runProgram("tum2rawlog", "'" + archive() + "' '" + rawlog() + "' --quiet");
+        return runProgram("rgbd-import", "'" + archive() + "' '" + rawlog() + "' --quiet");
     }
 };
 

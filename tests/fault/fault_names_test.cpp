@@ -53,7 +53,7 @@ TEST_F(FaultNames, ofFilesThatAreNotThere) {
     expectRefused("rgbd-eval", "ate " + name + " " + name);
     expectRefused("rgbd-slam", ini_ + " " + name + " -o out");
     expectRefused("rgbd-slam", name + " " + name + " -o out");
-    expectRefused("tum2rawlog", name + " out.rawlog");
+    expectRefused("rgbd-import", name + " out.rawlog");
     expectRefused("rawlog2tum", name + " out");
     expectRefused("rgbd-map", name);
 }
@@ -64,7 +64,7 @@ TEST_F(FaultNames, inWhatIsReadAreShownInLetters) {
     folder_.write("a.txt", "1 0 0 0 0 0 0 1\n2 \x1b[2J\xff\n");
     expectRefused("rgbd-eval", "ate a.txt a.txt");
     folder_.write("s/rgb.txt", "\x1b[2J\xff 1\n");
-    expectRefused("tum2rawlog", "s out.rawlog");
+    expectRefused("rgbd-import", "s out.rawlog");
 }
 
 TEST_F(FaultNames, plotsAreMadeOfAndAs) {

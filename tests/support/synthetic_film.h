@@ -26,7 +26,7 @@ inline std::string filmOf(const std::string& scenario, const std::string& settin
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(std::filesystem::path(folder).parent_path());
     runOrFail("rgbd-synth", scenario + " '" + folder + "' -q " + settings);
-    runOrFail("tum2rawlog", "'" + folder + "' '" + rawlog + "' -q");
+    runOrFail("rgbd-import", "'" + folder + "' '" + rawlog + "' -q");
     return folder;
 }
 

@@ -94,8 +94,8 @@ class Run {
     std::string import(SequenceResult& result) const {
         if (fs::path(sequence_.source).extension() == ".rawlog") return sequence_.source;
         const ChildResult child = runChild(
-            {siblingProgram("tum2rawlog"), sequence_.source, imported_}, log("tum2rawlog"));
-        require(child, "tum2rawlog");
+            {siblingProgram("rgbd-import"), sequence_.source, imported_}, log("rgbd-import"));
+        require(child, "rgbd-import");
         result.import_s = child.wall_s;
         return imported_;
     }
@@ -183,7 +183,7 @@ std::string fingerprintOf(const FoundSequence& sequence, const SequenceRunOption
     hash.addContent(iniFor(sequence, options));
     for (const auto& assignment : options.assignments) hash.add(assignment);
     hash.add(options.maps ? "maps" : "no maps");
-    for (const char* program : {"tum2rawlog", "rgbd-slam"}) hash.addState(siblingProgram(program));
+    for (const char* program : {"rgbd-import", "rgbd-slam"}) hash.addState(siblingProgram(program));
     return hash.text();
 }
 

@@ -81,13 +81,13 @@ class RawlogReader::Implementation {
     static std::optional<std::uint32_t> checkedGzSize(const std::string& path) {
         if (!fs::exists(path)) throw Error("there is no rawlog '" + path + "'", "check the name");
         if (fs::is_directory(path)) {
-            throw Error("'" + path + "' is a folder, not a rawlog", "import it with tum2rawlog");
+            throw Error("'" + path + "' is a folder, not a rawlog", "import it with rgbd-import");
         }
         return gzSize(path);
     }
 
     [[noreturn]] void refuse(const std::string& why) const {
-        throw Error("'" + path_ + "' " + why, "give a rawlog of MRPT, or make one with tum2rawlog");
+        throw Error("'" + path_ + "' " + why, "give a rawlog of MRPT, or make one with rgbd-import");
     }
 
     /** \return false at the end of the file */

@@ -18,7 +18,7 @@ constexpr float max_range_m = 10;
 
 [[noreturn]] void refuse(const CObservation3DRangeScan& observation, const std::string& why) {
     throw Error("frame at stamp " + stampText(toSeconds(observation.timestamp)) + ": " + why,
-                "import the sequence again with tum2rawlog, or leave this sensor out");
+                "import the sequence again with rgbd-import, or leave this sensor out");
 }
 
 /** MRPT copies the byte of a file into a bool; other than 0 and 1 must not be looked at as one. */

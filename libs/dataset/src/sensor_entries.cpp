@@ -80,6 +80,8 @@ SensorEntries sensorEntries(const RgbdSequence& sequence, const CameraSetup& set
     report.imu = entries.size() - report.truth;
     addOdometry(sequence, entries);
     report.odometry = entries.size() - report.truth - report.imu;
+    entries.insert(entries.end(), sequence.others.begin(), sequence.others.end());
+    report.others = sequence.others.size();
     std::stable_sort(entries.begin(), entries.end(),
                      [](const auto& a, const auto& b) { return a->timestamp < b->timestamp; });
     return entries;

@@ -119,6 +119,7 @@ class Import {
         }
         writeSensorsUntil(mrpt::Clock::time_point::max(), next_sensor, writer);
         report_.misalignment_px = registration_.misalignment();
+        report_.notes = sequence_.notes;
     }
 
     const ImportReport& report() const { return report_; }
@@ -220,14 +221,16 @@ std::string toText(const ImportReport& report) {
     std::snprintf(line, sizeof(line), "%zu frames over %.2f s, %.1f a second, longest gap %.2f s",
                   report.frames, span, span > 0 ? (report.frames - 1) / span : 0.0,
                   report.longest_gap_s);
-    std::string text = line;
+    std::string text;
+    for (const std::string& note : report.notes) text += note + "\n";
+    text += line;
     if (report.damaged > 0) text += "; " + std::to_string(report.damaged) + " left out as damaged";
     text += "\n" + tallyText("colour", "depth", report.color) +
             tallyText("depth", "colour", report.depth);
     std::snprintf(line, sizeof(line),
-                  "%zu IMU readings, %zu odometry readings, %zu ground truth poses\n"
-                  "imported in %.1f s, %.0f frames a second\n",
-                  report.imu, report.odometry, report.truth, report.seconds,
+                  "%zu IMU readings, %zu odometry readings, %zu of other sensors, "
+                  "%zu ground truth poses\nimported in %.1f s, %.0f frames/s\n",
+                  report.imu, report.odometry, report.others, report.truth, report.seconds,
                   report.frames / std::max(1e-3, report.seconds));
     return text + line;
 }

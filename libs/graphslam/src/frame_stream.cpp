@@ -43,7 +43,7 @@ class FrameStream::Implementation {
         pending_ = readFrame();
         if (!pending_) {
             throw Error("the rawlog '" + rawlog + "' has no RGB-D frame (CObservation3DRangeScan)",
-                        "import a sequence with tum2rawlog");
+                        "import a sequence with rgbd-import");
         }
     }
 

@@ -1,10 +1,14 @@
 /** What a recorded sequence consists of, whatever its files look like. */
 #pragma once
+#include <mrpt/obs/CObservation.h>
+
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "rgbd_graphslam/dataset/camera_file.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 
 namespace rgbd_graphslam {
@@ -34,6 +38,14 @@ struct RgbdSequence {
     std::vector<StampedVector> acceleration, angular_velocity;
     /** x (m), y (m), heading (rad) of the robot's base. */
     std::vector<StampedVector> odometry;
+    /** Readings of further sensors (laser scans, GPS), as they go into the rawlog. */
+    std::vector<mrpt::obs::CObservation::Ptr> others;
+
+    /** Calibration that came with the recording: of the colour camera, and of the depth camera
+     *  where depth is not registered to colour. */
+    std::optional<CameraSetup> camera, depth_camera;
+    /** What was found, chosen and left out, a line each; told at the end of the import. */
+    std::vector<std::string> notes;
 };
 
 /** How orderly stamps come. */

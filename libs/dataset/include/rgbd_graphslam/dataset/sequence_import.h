@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "rgbd_graphslam/dataset/camera_file.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
@@ -44,7 +45,9 @@ struct ImportReport {
     ImageTally color, depth;
     /** Frames written, and pairs left out because an image of theirs is damaged. */
     std::size_t frames = 0, damaged = 0;
-    std::size_t imu = 0, odometry = 0, truth = 0;
+    std::size_t imu = 0, odometry = 0, truth = 0, others = 0;
+    /** The sequence's notes. */
+    std::vector<std::string> notes;
     /** By how many pixels depth seems to lie right of and below its place in colour; nothing when
      *  it lies well or nothing can be told. */
     std::optional<Eigen::Vector2d> misalignment_px;

@@ -1,4 +1,4 @@
-/** tum2rawlog: an RGB-D sequence in folders becomes an MRPT rawlog. */
+/** rgbd-import: an RGB-D sequence in folders becomes an MRPT rawlog. */
 #include <cstdio>
 #include <filesystem>
 
@@ -96,9 +96,11 @@ CameraSetup chooseCamera(const Arguments& args, const RgbdSequence& sequence,
         return known ? *known : readCameraFile(args.camera);
     }
     const fs::path file = fs::path(sequence.folder) / "camera.ini";
-    if (!fs::exists(file)) return guessedCamera(sequence, layout);
-    sayInfo("camera: " + file.string());
-    return readCameraFile(file);
+    if (fs::exists(file)) {
+        sayInfo("camera: " + file.string());
+        return readCameraFile(file);
+    }
+    return sequence.camera ? *sequence.camera : guessedCamera(sequence, layout);
 }
 
 int importFolder(const Arguments& args, const std::string& folder) {
@@ -109,6 +111,7 @@ int importFolder(const Arguments& args, const std::string& folder) {
     if (args.depth_units > 0) setup.depth_units = args.depth_units;
     if (args.depth_scale > 0) setup.depth_scale = args.depth_scale;
     ImportOptions options = args.import;
+    options.depth_camera = sequence.depth_camera;
     if (!args.depth_camera.empty()) options.depth_camera = readCameraFile(args.depth_camera);
     const ImportReport report = importSequence(sequence, setup, args.rawlog, options);
     std::fputs(toText(report).c_str(), stdout);
@@ -137,7 +140,7 @@ int main(int argc, char** argv) {
     CLI::App app(
         "Imports a sequence of the TUM RGB-D benchmark, or in a similar layout, into an MRPT "
         "rawlog",
-        "tum2rawlog");
+        "rgbd-import");
     Arguments args;
     declare(app, args);
     return runProgram(app, argc, argv, [&] { return run(args); });
