@@ -256,6 +256,32 @@ TEST_F(FaultRawlog, anHoursGap) {
     expectFine("6 tracked");
 }
 
+TEST_F(FaultRawlog, framesWithoutTimestamps) {
+    for (const auto& frame : film_) frame->timestamp = INVALID_TIMESTAMP;
+    write(film_);
+    expectRefused("frame 0 of the rawlog has no timestamp");
+}
+
+/** Files that an import with --compact copies as they are. */
+TEST_F(FaultRawlog, colorFilesThatAreGreyDeepOrTransparent) {
+    std::vector<std::string> files;
+    for (std::size_t i = 0; i < film_.size(); ++i) {
+        cv::Mat pixels = film_[i]->intensityImage.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY);
+        if (i % 3 == 0) cv::cvtColor(pixels, pixels, cv::COLOR_BGR2GRAY);
+        if (i % 3 == 1) pixels.convertTo(pixels, CV_16U, 257);
+        if (i % 3 == 2) cv::cvtColor(pixels, pixels, cv::COLOR_BGR2BGRA);
+        files.push_back(folder_ / (std::to_string(i) + ".png"));
+        cv::imwrite(files.back(), pixels);
+    }
+    write(
+        [&](RawlogWriter& writer) {
+            for (std::size_t i = 0; i < film_.size(); ++i) writer.writeFrame(*film_[i], files[i]);
+        },
+        RawlogStorage::Compact);
+    expectFine("6 tracked");
+    EXPECT_TRUE(fs::exists(folder_ / "out/keyframes.jpg"));
+}
+
 TEST_F(FaultRawlog, otherSensorsBetween) {
     write([&](RawlogWriter& writer) {
         for (const auto& frame : film_) {

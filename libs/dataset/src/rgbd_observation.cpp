@@ -74,6 +74,14 @@ cv::Mat sharedDepth(const CObservation3DRangeScan& observation) {
                    const_cast<std::uint16_t*>(ranges.data()));
 }
 
+/** The formats that images stored outside a rawlog may have, as 8-bit BGR or grey. */
+cv::Mat asColorOrGrey(const CObservation3DRangeScan& observation, cv::Mat pixels) {
+    if (pixels.depth() == CV_16U) pixels.convertTo(pixels, CV_8U, 1 / 256.0);
+    if (pixels.depth() != CV_8U) refuse(observation, "its colour image is of an unknown kind");
+    if (pixels.channels() == 4) cv::cvtColor(pixels, pixels, cv::COLOR_BGRA2BGR);
+    return pixels;
+}
+
 }  // namespace
 
 RgbdImage colorAndDepth(const CObservation3DRangeScan::Ptr& observation) {
@@ -85,7 +93,8 @@ RgbdImage colorAndDepth(const CObservation3DRangeScan::Ptr& observation) {
     image.depth_unit_m = observation->rangeUnits;
     image.depth = sharedDepth(*observation);
     image.owner = observation;
-    const cv::Mat pixels = observation->intensityImage.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
+    const cv::Mat pixels = asColorOrGrey(
+        *observation, observation->intensityImage.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY));
     if (pixels.size() != image.depth.size()) {
         refuse(*observation, "colour and depth differ in size");
     }

@@ -32,6 +32,13 @@ void checkSize(const RgbdImage& image, const CObservation3DRangeScan& first, std
                 "import the sequence with the calibration of its camera");
 }
 
+void checkStamp(const CObservation3DRangeScan& frame, std::size_t index) {
+    if (frame.timestamp != INVALID_TIMESTAMP) return;
+    throw Error("frame " + std::to_string(index) + " of the rawlog has no timestamp",
+                "export it with 'rawlog2tum RAWLOG DIR --rate HZ', which stamps such frames by "
+                "their number, and import DIR with rgbd-import");
+}
+
 }  // namespace
 
 class FrameStream::Implementation {
@@ -139,6 +146,7 @@ class FrameStream::Implementation {
             if (frame->sensorLabel != first_->sensorLabel) continue;  // another camera
             ended_ = false;
             const std::size_t index = frames_read_++;
+            checkStamp(*frame, index);
             expected_frames_ = std::lround(frames_read_ / std::max(1e-9, reader_.progress()));
             const DeadReckoning reckoning =
                 reckoner_.at(toSeconds(frame->timestamp), cameraOnRobot(*first_));

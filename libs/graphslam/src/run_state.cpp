@@ -36,7 +36,8 @@ void RunState::keepPictures(int keyframe,
                             const mrpt::obs::CObservation3DRangeScan::Ptr& observation) {
     if (job.localises()) return;
     const RgbdImage image = toRgbdImage(observation);
-    keyframe_sheet.add(keyframe, *last_stamp_s - *first_stamp_s, image.color);
+    keyframe_sheet.add(keyframe, *last_stamp_s - *first_stamp_s,
+                       image.color.empty() ? image.grey : image.color);
     if (!start) level.addKeyframe(keyframe, image, cameraOf(*observation));
 }
 

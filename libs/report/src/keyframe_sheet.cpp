@@ -10,10 +10,11 @@ namespace {
 constexpr std::size_t most = 48, columns = 8;
 constexpr int width_px = 160;
 
-cv::Mat3b reduced(const cv::Mat& color) {
-    const int height_px = std::max(1, color.rows * width_px / std::max(1, color.cols));
-    cv::Mat3b image;
-    cv::resize(color, image, {width_px, height_px}, 0, 0, cv::INTER_AREA);
+cv::Mat3b reduced(const cv::Mat& picture) {
+    const int height_px = std::max(1, picture.rows * width_px / std::max(1, picture.cols));
+    cv::Mat image;
+    cv::resize(picture, image, {width_px, height_px}, 0, 0, cv::INTER_AREA);
+    if (image.channels() == 1) cv::cvtColor(image, image, cv::COLOR_GRAY2BGR);
     return image;
 }
 
@@ -32,9 +33,9 @@ void label(cv::Mat& image, int keyframe, double seconds) {
 
 }  // namespace
 
-void KeyframeSheet::add(int keyframe, double seconds, const cv::Mat& color) {
+void KeyframeSheet::add(int keyframe, double seconds, const cv::Mat& picture) {
     if (count_++ % stride_ != 0) return;
-    thumbnails_.push_back({keyframe, seconds, reduced(color)});
+    thumbnails_.push_back({keyframe, seconds, reduced(picture)});
     if (thumbnails_.size() > most) thinOut();
 }
 

@@ -11,8 +11,8 @@ class KeyframeSheet {
   public:
     /** \param keyframe its number
      *  \param seconds since the first frame
-     *  \param color CV_8UC3, BGR */
-    void add(int keyframe, double seconds, const cv::Mat& color);
+     *  \param picture CV_8UC3 (BGR) or CV_8UC1 (grey) */
+    void add(int keyframe, double seconds, const cv::Mat& picture);
 
     /** Rows of pictures with number and time in each; empty when none was added. */
     cv::Mat3b picture() const;
