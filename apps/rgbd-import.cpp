@@ -85,8 +85,12 @@ CameraSetup guessedCamera(const RgbdSequence& sequence, SequenceLayout layout) {
         sayInfo("camera: " + guess->name + ", by the folder's name");
         return *guess;
     }
-    sayWarning("the folder's name tells no camera; taking ROS's default (f = 525), see --camera");
-    return *cameraByName("ros");
+    sayWarning(
+        "cannot infer the camera from the folder's name; using generic intrinsics (f = 525 px) and "
+        "5000 depth units per meter. Pass --camera FILE.ini");
+    CameraSetup setup = *cameraByName("ros");
+    setup.depth_units_assumed = true;
+    return setup;
 }
 
 CameraSetup chooseCamera(const Arguments& args, const RgbdSequence& sequence,
@@ -108,7 +112,10 @@ int importFolder(const Arguments& args, const std::string& folder) {
         args.layout == "auto" ? detectLayout(folder) : layoutByName(args.layout);
     const RgbdSequence sequence = readSequence(folder, layout, args.rate_hz);
     CameraSetup setup = chooseCamera(args, sequence, layout);
-    if (args.depth_units > 0) setup.depth_units = args.depth_units;
+    if (args.depth_units > 0) {
+        setup.depth_units = args.depth_units;
+        setup.depth_units_assumed = false;
+    }
     if (args.depth_scale > 0) setup.depth_scale = args.depth_scale;
     ImportOptions options = args.import;
     options.depth_camera = sequence.depth_camera;

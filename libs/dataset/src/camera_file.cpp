@@ -71,6 +71,8 @@ class CameraFile {
         return own;
     }
 
+    bool has(const std::string& key) const { return config_.keyExists(section, key); }
+
     double positive(const std::string& key, double otherwise) const {
         if (!has(key)) return otherwise;
         const auto numbers = numbersOf(key);
@@ -90,8 +92,6 @@ class CameraFile {
     [[noreturn]] void refuse(const std::string& why) const {
         throw Error("camera file '" + path_ + "': " + why, "see ini/camera_fr1.ini for the form");
     }
-
-    bool has(const std::string& key) const { return config_.keyExists(section, key); }
 
     std::vector<double> numbersOf(const std::string& key) const {
         std::string text = config_.read_string(section, key, "");
@@ -215,6 +215,7 @@ CameraSetup readCameraFile(const std::string& path) {
     setup.name = path;
     setup.camera = file.camera();
     setup.depth_units = file.positive("depth_units", setup.depth_units);
+    setup.depth_units_assumed = !file.has("depth_units");
     setup.depth_scale = file.positive("depth_scale", setup.depth_scale);
     setup.T_base_sensor = file.pose("sensor_pose", setup.T_base_sensor);
     setup.T_sensor_imu = file.pose("imu_pose", setup.T_sensor_imu);

@@ -90,7 +90,36 @@ CameraSetup withDepthUnitOf(const std::optional<CameraSetup>& depth, CameraSetup
     if (!depth) return setup;
     setup.depth_units = depth->depth_units;
     setup.depth_scale = depth->depth_scale;
+    setup.depth_units_assumed = depth->depth_units_assumed;
     return setup;
+}
+
+/** What is wrong with depth's unit, and which would be plausible; empty when nothing is. */
+std::string doubtOfUnits(const DepthHistogram& depth, double units, bool assumed) {
+    const DepthSummary summary = summarize(depth, 1 / units);
+    const auto better = plausibleDepthUnits(depth, units, assumed);
+    if (!better && !isImplausible(summary)) return {};
+    char text[320];
+    std::snprintf(text, sizeof text,
+                  "depth is implausible: with depth_units = %.6g%s the median is %.2g m and 95 %% "
+                  "of the readings are within %.2g m",
+                  units, assumed ? " (assumed, nothing states it)" : "", summary.median_m,
+                  summary.far_m);
+    const std::string found = text;
+    if (!better) return found + "; check depth_units and depth_scale in camera.ini";
+    std::snprintf(text, sizeof text, "; depth_units = %.6g would give a median of %.2g m", *better,
+                  summary.median_m * units / *better);
+    return found + text + ": set it in camera.ini or pass --depth-units";
+}
+
+std::string depthMaxText(const DepthSummary& summary, double depth_max_m) {
+    char text[240];
+    std::snprintf(
+        text, sizeof text,
+        "%.0f %% of the depth readings are beyond %.0f m, where rgbd-slam ignores them by "
+        "default; run it with --set FeatureOptions.depth_max_m=%.3g",
+        100 * summary.share_beyond, usual_max_depth_m, depth_max_m);
+    return text;
 }
 
 /** Writes one import's entries in order of time. */
@@ -120,6 +149,7 @@ class Import {
         writeSensorsUntil(mrpt::Clock::time_point::max(), next_sensor, writer);
         report_.misalignment_px = registration_.misalignment();
         report_.notes = sequence_.notes;
+        judgeDepth();
     }
 
     const ImportReport& report() const { return report_; }
@@ -155,6 +185,7 @@ class Import {
         }
         const std::size_t stride = std::max<std::size_t>(1, pairs_.size() / frames_checked);
         if (report_.frames % stride == 0) registration_.add(loaded.color, loaded.depth);
+        depth_histogram_.add(loaded.depth);
         const auto frame = makeRgbdObservation(setup_, pair.color.stamp_s);
         setColor(*frame, loaded.color);
         setDepth(*frame, loaded.depth);
@@ -177,11 +208,24 @@ class Import {
         ++report_.damaged;
     }
 
+    /** Whether depth's unit, and rgbd-slam's default maximum, suit the recording. */
+    void judgeDepth() {
+        report_.depth_summary = summarize(depth_histogram_, setup_.depthUnitInMetres());
+        const double units = 1 / setup_.depthUnitInMetres();
+        const std::string doubt = doubtOfUnits(depth_histogram_, units, setup_.depth_units_assumed);
+        if (!doubt.empty()) {
+            report_.warnings.push_back(doubt);
+        } else if (const auto depth_max_m = betterMaxDepth(report_.depth_summary)) {
+            report_.warnings.push_back(depthMaxText(report_.depth_summary, *depth_max_m));
+        }
+    }
+
     const RgbdSequence& sequence_;
     CameraSetup setup_;
     const ImportOptions& options_;
     FrameSource source_;
     RegistrationCheck registration_;
+    DepthHistogram depth_histogram_;
     ImportReport report_;
     std::vector<FramePair> pairs_;
     SensorEntries sensors_;
@@ -203,14 +247,14 @@ std::string tallyText(const std::string& name, const std::string& other, const I
            std::to_string(tally.repeated) + " repeat\n";
 }
 
-void warnOf(const Eigen::Vector2d& misalignment_px, bool is_registered) {
+std::string textOf(const Eigen::Vector2d& misalignment_px, bool is_registered) {
     char text[200];
     std::snprintf(text, sizeof text,
                   "depth seems shifted against colour by %.0f px to the right and %.0f px down; %s",
                   misalignment_px.x(), misalignment_px.y(),
                   is_registered ? "check the cameras' calibrations and poses"
                                 : "register it with --register, see --help");
-    sayWarning(text);
+    return text;
 }
 
 }  // namespace
@@ -225,6 +269,7 @@ std::string toText(const ImportReport& report) {
     for (const std::string& note : report.notes) text += note + "\n";
     text += line;
     if (report.damaged > 0) text += "; " + std::to_string(report.damaged) + " left out as damaged";
+    text += "\ndepth: " + toText(report.depth_summary);
     text += "\n" + tallyText("colour", "depth", report.color) +
             tallyText("depth", "colour", report.depth);
     std::snprintf(line, sizeof(line),
@@ -241,7 +286,11 @@ ImportReport importSequence(const RgbdSequence& sequence, const CameraSetup& set
     Import import(sequence, setup, options);
     writeRawlog(rawlog_path, options.storage, [&](RawlogWriter& writer) { import.write(writer); });
     ImportReport report = import.report();
-    if (report.misalignment_px) warnOf(*report.misalignment_px, options.depth_camera.has_value());
+    if (report.misalignment_px) {
+        report.warnings.push_back(
+            textOf(*report.misalignment_px, options.depth_camera.has_value()));
+    }
+    for (const std::string& warning : report.warnings) sayWarning(warning);
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return report;

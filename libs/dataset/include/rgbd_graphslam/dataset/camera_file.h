@@ -15,6 +15,8 @@ struct CameraSetup {
     Camera camera;
     /** Depth of one unit is depth_scale / depth_units metres. */
     double depth_units = 5000;
+    /** Nobody stated depth_units: it is the default. */
+    bool depth_units_assumed = false;
     double depth_scale = 1;
     /** Where the sensor (MRPT's axes: x forward, y left, z up) sits on the robot's base; identity
      *  for a camera held by hand. */

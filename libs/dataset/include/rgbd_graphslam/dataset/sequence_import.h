@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "rgbd_graphslam/dataset/camera_file.h"
+#include "rgbd_graphslam/dataset/depth_statistics.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
 #include "rgbd_graphslam/dataset/rgbd_sequence.h"
 
@@ -48,6 +49,11 @@ struct ImportReport {
     std::size_t imu = 0, odometry = 0, truth = 0, others = 0;
     /** The sequence's notes. */
     std::vector<std::string> notes;
+    /** What is probably wrong with the recording or its calibration, with the value that would be
+     *  right; also said by sayWarning. */
+    std::vector<std::string> warnings;
+    /** Depth over the whole recording. */
+    DepthSummary depth_summary;
     /** By how many pixels depth seems to lie right of and below its place in colour; nothing when
      *  it lies well or nothing can be told. */
     std::optional<Eigen::Vector2d> misalignment_px;
