@@ -91,9 +91,10 @@ ceres::Problem::Options withoutOwnership() {
 }  // namespace
 
 void PoseGraphOptions::describe(OptionVisitor& v) {
-    v.integer("max_iterations", max_iterations, 1, 1000, "", "Most Levenberg-Marquardt steps");
+    v.integer("max_iterations", max_iterations, 1, 1000, "",
+              "Maximum Levenberg-Marquardt iterations");
     v.real("loop_kernel_sigmas", loop_kernel_sigmas, 0.1, 1000, "sigmas",
-           "Residual of a loop edge at which it has lost half its weight (Cauchy kernel)");
+           "Residual at which a loop edge loses half its weight (Cauchy kernel)");
 }
 
 PoseGraphSummary optimizePoseGraph(PoseGraph& graph, const PoseGraphOptions& options, int fixed) {

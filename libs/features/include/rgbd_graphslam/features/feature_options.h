@@ -16,7 +16,7 @@ struct FeatureOptions : Options {
     double depth_edge_step = 0.03;
 
     const char* section() const override { return "FeatureOptions"; }
-    const char* about() const override { return "Keypoints, descriptors and their depth"; }
+    const char* about() const override { return "Keypoint detection, descriptors and depth"; }
     void describe(OptionVisitor& v) override;
 };
 

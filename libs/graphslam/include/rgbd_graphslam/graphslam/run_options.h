@@ -14,7 +14,7 @@ struct RunOptions : Options {
     bool dense_maps = true;
 
     const char* section() const override { return "RunOptions"; }
-    const char* about() const override { return "The run as a whole"; }
+    const char* about() const override { return "Threads, limits and outputs of a run"; }
     void describe(OptionVisitor& v) override;
 };
 

@@ -23,7 +23,7 @@ struct MapOptions : Options {
     int memory_limit_mb = 4096;
 
     const char* section() const override { return "MapOptions"; }
-    const char* about() const override { return "Dense maps made from the keyframes"; }
+    const char* about() const override { return "Dense maps built from the keyframes"; }
     void describe(OptionVisitor& v) override;
 };
 

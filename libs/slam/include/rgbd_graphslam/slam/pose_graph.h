@@ -32,7 +32,7 @@ struct PoseGraphOptions : Options {
     int max_iterations = 50;
     double loop_kernel_sigmas = 5.0;
     const char* section() const override { return "PoseGraphOptions"; }
-    const char* about() const override { return "Optimisation of the keyframe graph after a loop"; }
+    const char* about() const override { return "Pose graph optimization after a loop closure"; }
     void describe(OptionVisitor& v) override;
 };
 

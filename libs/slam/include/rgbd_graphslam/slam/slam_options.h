@@ -17,7 +17,7 @@ struct SensorOptions : Options {
     DepthNoise depth_noise{0.005, 0.0019, 0.4};
 
     const char* section() const override { return "SensorOptions"; }
-    const char* about() const override { return "How exact the camera is"; }
+    const char* about() const override { return "Sensor noise model"; }
     void describe(OptionVisitor& v) override;
 };
 
@@ -31,7 +31,7 @@ struct TrackerOptions : Options {
     bool align_keypoints = true;
 
     const char* section() const override { return "TrackerOptions"; }
-    const char* about() const override { return "Pose of every frame against the local map"; }
+    const char* about() const override { return "Tracking of every frame against the local map"; }
     void describe(OptionVisitor& v) override;
 };
 
@@ -45,9 +45,7 @@ struct KeyframeOptions : Options {
     double cull_share = 0.9;
 
     const char* section() const override { return "KeyframeOptions"; }
-    const char* about() const override {
-        return "When a frame becomes a keyframe, and when one goes";
-    }
+    const char* about() const override { return "Keyframe insertion and culling"; }
     void describe(OptionVisitor& v) override;
 };
 
@@ -65,7 +63,7 @@ struct MapperOptions : Options {
     bool final_adjustment = true;
 
     const char* section() const override { return "MapperOptions"; }
-    const char* about() const override { return "Landmarks and local bundle adjustment"; }
+    const char* about() const override { return "Local mapping and bundle adjustment"; }
     void describe(OptionVisitor& v) override;
 };
 
@@ -79,7 +77,7 @@ struct LoopOptions : Options {
     double max_drift_share = 0.02;
 
     const char* section() const override { return "LoopOptions"; }
-    const char* about() const override { return "Recognising places seen before"; }
+    const char* about() const override { return "Loop closure"; }
     void describe(OptionVisitor& v) override;
 };
 
@@ -90,7 +88,7 @@ struct RecoveryOptions : Options {
     int fewest_keypoints = 100;
 
     const char* section() const override { return "RecoveryOptions"; }
-    const char* about() const override { return "What to do where the map is not recognised"; }
+    const char* about() const override { return "Recovery when the map is not seen"; }
     void describe(OptionVisitor& v) override;
 };
 
