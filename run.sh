@@ -4,13 +4,17 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 build=build/release
-packages=(
-    build-essential cmake ninja-build ccache pkg-config
-    libmrpt-dev libmrpt-nanogui-dev mrpt-apps
-    libeigen3-dev libopencv-dev libceres-dev liboctomap-dev octomap-tools
+# What the programs need, and what tests and benchmarks need besides.
+build_packages=(
+    g++ cmake ninja-build
+    libmrpt-graphslam-dev libmrpt-nav-dev libmrpt-nanogui-dev
+    libeigen3-dev libopencv-dev libceres-dev liboctomap-dev
     libcli11-dev nlohmann-json3-dev libarchive-dev libjpeg-dev zlib1g-dev
     libcurl4-openssl-dev libnanoflann-dev gnuplot-nox
     libgl-dev libopengl-dev libegl1 libgl1-mesa-dri
+)
+test_packages=(
+    ccache pkg-config mrpt-apps octomap-tools
     libgtest-dev libgmock-dev libbenchmark-dev python3 parallel
     python3-rosbag python3-sensor-msgs python3-tf2-msgs xvfb xauth
 )
@@ -18,11 +22,12 @@ packages=(
 usage() {
     cat <<'END'
 usage: ./run.sh COMMAND
-  demo     install, build, run SLAM on the sample rawlog, evaluate it, render its map
-  test     install, build, run every test
+  demo     install and build what it needs, run SLAM on the sample rawlog, evaluate it, render its map
+  test     install and build everything, run every test
   bench    install, build, measure (see doc/benchmarks.md)
-  build    install and build only
-  install  install what is missing from Debian only
+  build    install and build everything
+  install  install all missing Debian packages
+  install-build   install only those that the programs need
 END
 }
 
@@ -43,11 +48,11 @@ installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = i
 
 install_packages() {
     local missing=()
-    for package in "${packages[@]}"; do
+    for package in "$@"; do
         installed "$package" || missing+=("$package")
     done
     if [ ${#missing[@]} -eq 0 ]; then
-        say "Debian packages: all ${#packages[@]} are there"
+        say "Debian packages: all $# are installed"
         return
     fi
     say "Installing from Debian: ${missing[*]}"
@@ -56,10 +61,19 @@ install_packages() {
         apt-get install -y -q --no-install-recommends "${missing[@]}"
 }
 
+install_all() { install_packages "${build_packages[@]}" "${test_packages[@]}"; }
+
 build_all() {
-    say "Building into $build (the first time takes some minutes)"
-    [ -f "$build/build.ninja" ] || cmake --preset "${build##*/}"
+    say "Building into $build (the first build takes some minutes)"
+    cmake --preset "${build##*/}" "$@"
     cmake --build "$build"
+}
+
+# The programs that the demo runs, and no tests.
+build_demo() {
+    say "Building the demo's programs into $build (the first build takes some minutes)"
+    [ -f "$build/build.ninja" ] || cmake --preset "${build##*/}" -DRGBD_BUILD_TESTS=OFF
+    cmake --build "$build" --target rgbd-slam rgbd-eval rgbd-viewer
 }
 
 run_tests() {
@@ -95,10 +109,11 @@ END
 }
 
 case "${1:-}" in
-    demo) install_packages; build_all; run_demo ;;
-    test) install_packages; build_all; shift; run_tests "$@" ;;
-    bench) build=build/bench; install_packages; build_all; shift; exec tests/bench/run "$@" ;;
-    build) install_packages; build_all ;;
-    install) install_packages ;;
+    demo) install_packages "${build_packages[@]}"; build_demo; run_demo ;;
+    test) install_all; build_all -DRGBD_BUILD_TESTS=ON; shift; run_tests "$@" ;;
+    bench) build=build/bench; install_all; build_all; shift; exec tests/bench/run "$@" ;;
+    build) install_all; build_all -DRGBD_BUILD_TESTS=ON ;;
+    install) install_all ;;
+    install-build) install_packages "${build_packages[@]}" ;;
     *) usage; [ "${1:-}" = --help ] || exit 2 ;;
 esac
