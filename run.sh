@@ -17,6 +17,7 @@ test_packages=(
     ccache pkg-config mrpt-apps octomap-tools
     libgtest-dev libgmock-dev libbenchmark-dev python3 parallel
     python3-rosbag python3-sensor-msgs python3-tf2-msgs xvfb xauth
+    colmap assimp-utils
 )
 
 usage() {

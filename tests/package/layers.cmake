@@ -3,7 +3,7 @@
 cmake_minimum_required(VERSION 3.22)
 
 set(layers core geometry live dataset synth evaluation report features slam mapping navigation
-    graphslam viewer benchmark)
+    graphslam export viewer benchmark)
 # These know nothing of rawlogs, and of MRPT no more than what `core` shows them.
 set(pure features slam)
 set(pure_may_include core geometry features slam)
