@@ -14,6 +14,7 @@
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/dataset/tum_sequence.h"
+#include "rgbd_graphslam/export/pose_graph_text.h"
 #include "rgbd_graphslam/features/feature_options.h"
 #include "rgbd_graphslam/graphslam/sparse_map_file.h"
 #include "rgbd_graphslam/mapping/map_files.h"
@@ -106,13 +107,21 @@ void fuzzColorOcTree(const std::string& bytes) {
     mayRefuse([&] { loadColorOcTree(fileOf("tree.ot", bytes)); });
 }
 
+void fuzzPoseGraph(const std::string& bytes) {
+    mayRefuse([&] { toG2oText(parseMrptGraph(bytes, "graph.graph")); });
+}
+
 const std::vector<NamedTarget>& fuzzTargets() {
-    static const std::vector<NamedTarget> targets = {
-        {"tum_list", fuzzTumList},        {"ini", fuzzIni},
-        {"camera_ini", fuzzCameraIni},    {"trajectory", fuzzTrajectory},
-        {"rawlog", fuzzRawlog},           {"sparse_map", fuzzSparseMap},
-        {"checkpoint", fuzzCheckpoint},   {"binary_octree", fuzzBinaryOcTree},
-        {"color_octree", fuzzColorOcTree}};
+    static const std::vector<NamedTarget> targets = {{"tum_list", fuzzTumList},
+                                                     {"ini", fuzzIni},
+                                                     {"camera_ini", fuzzCameraIni},
+                                                     {"trajectory", fuzzTrajectory},
+                                                     {"rawlog", fuzzRawlog},
+                                                     {"sparse_map", fuzzSparseMap},
+                                                     {"checkpoint", fuzzCheckpoint},
+                                                     {"binary_octree", fuzzBinaryOcTree},
+                                                     {"color_octree", fuzzColorOcTree},
+                                                     {"pose_graph", fuzzPoseGraph}};
     return targets;
 }
 

@@ -21,6 +21,7 @@ void fuzzSparseMap(const std::string& bytes);
 void fuzzCheckpoint(const std::string& bytes);
 void fuzzBinaryOcTree(const std::string& bytes);
 void fuzzColorOcTree(const std::string& bytes);
+void fuzzPoseGraph(const std::string& bytes);
 
 struct NamedTarget {
     const char* name;

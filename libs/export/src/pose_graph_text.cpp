@@ -76,6 +76,8 @@ void readEdge(GraphLine& line, PoseGraphText& graph) {
     edge.mean = SE3(rotationOf(p[3], p[4], p[5]), {p[0], p[1], p[2]});
     edge.information =
         quaternionInformation(symmetric(line.numbers<21>()), edge.mean.R, p[5], p[4]);
+    if (!edge.information.allFinite())
+        line.fail("has a pitch of 90 degrees, where its information is not defined");
     graph.edges.push_back(edge);
 }
 

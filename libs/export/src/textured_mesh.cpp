@@ -27,6 +27,14 @@ Eigen::Vector2f toUv(const Eigen::Vector2f& pixel, const cv::Size& size) {
             (pixel.y() + 0.5f) / static_cast<float>(size.height)};
 }
 
+Eigen::Array2f asArray(const cv::Point& point) {
+    return {static_cast<float>(point.x), static_cast<float>(point.y)};
+}
+
+Eigen::Array2f asArray(const cv::Size& size) {
+    return asArray(cv::Point(size.width, size.height));
+}
+
 /** The part of an image, with what is beyond its border repeated. */
 cv::Mat3b cutOut(const cv::Mat3b& image, const cv::Rect& rect) {
     const cv::Rect inside = rect & cv::Rect(0, 0, image.cols, image.rows);
@@ -145,36 +153,38 @@ void TextureBuilder::collectSwatches() {
 void TextureBuilder::placeCharts() {
     for (std::size_t c = 0; c < charts_.size(); ++c) {
         Chart& chart = charts_[c];
-        const View& view = viewOf(chart.view);
-        const SE3 T_cam_world = view.T_world_cam.inverse();
-        const cv::Size size = scaled(chart.in_image.size(), layout_.scale);
-        const Eigen::Array2f stretch(
-            static_cast<float>(size.width) / static_cast<float>(chart.in_image.width),
-            static_cast<float>(size.height) / static_cast<float>(chart.in_image.height));
-        const Eigen::Array2f from(static_cast<float>(chart.in_image.x),
-                                  static_cast<float>(chart.in_image.y)),
-            to(static_cast<float>(layout_.corners[c].x), static_cast<float>(layout_.corners[c].y));
-        std::unordered_map<std::uint32_t, std::uint32_t> number;
         chart.first_vertex = result_.vertices.size();
-        for (const std::uint32_t triangle : chart.triangles) {
-            std::array<std::uint32_t, 3> corners{};
-            for (std::size_t i = 0; i < 3; ++i) {
-                const std::uint32_t vertex = mesh_.triangles[triangle][i];
-                const auto [entry, is_new] =
-                    number.try_emplace(vertex, static_cast<std::uint32_t>(result_.vertices.size()));
-                corners[i] = entry->second;
-                if (!is_new) continue;
-                const Eigen::Array2f pixel =
-                    pixelOf(mesh_.vertices[vertex], view.camera, T_cam_world);
-                result_.vertices.push_back(mesh_.vertices[vertex]);
-                result_.uv.push_back(
-                    toUv(to + (pixel - from + 0.5f) * stretch - 0.5f, layout_.size));
-                source_.push_back(vertex);
-            }
-            result_.triangles.push_back(corners);
-        }
+        placeChart(chart, layout_.corners[c]);
         chart.last_vertex = result_.vertices.size();
     }
+}
+
+void TextureBuilder::placeChart(const Chart& chart, const cv::Point& corner) {
+    const View& view = viewOf(chart.view);
+    const SE3 T_cam_world = view.T_world_cam.inverse();
+    const cv::Size size = scaled(chart.in_image.size(), layout_.scale);
+    const Eigen::Array2f from = asArray(chart.in_image.tl()), to = asArray(corner),
+                         stretch = asArray(size) / asArray(chart.in_image.size());
+    std::unordered_map<std::uint32_t, std::uint32_t> number;  // of the mesh's vertices
+    const auto numberOf = [&](std::uint32_t vertex) {
+        const auto next = static_cast<std::uint32_t>(result_.vertices.size());
+        const auto [entry, is_new] = number.try_emplace(vertex, next);
+        if (!is_new) return entry->second;
+        const Eigen::Array2f pixel = pixelOf(mesh_.vertices[vertex], view.camera, T_cam_world);
+        addVertex(vertex, to + (pixel - from + 0.5f) * stretch - 0.5f);
+        return next;
+    };
+    for (const std::uint32_t triangle : chart.triangles) {
+        const auto& [a, b, c] = mesh_.triangles[triangle];
+        const std::uint32_t first = numberOf(a), second = numberOf(b);
+        result_.triangles.push_back({first, second, numberOf(c)});
+    }
+}
+
+void TextureBuilder::addVertex(std::uint32_t vertex, const Eigen::Vector2f& pixel) {
+    result_.vertices.push_back(mesh_.vertices[vertex]);
+    result_.uv.push_back(toUv(pixel, layout_.size));
+    source_.push_back(vertex);
 }
 
 void TextureBuilder::placeSwatches() {
@@ -190,11 +200,7 @@ void TextureBuilder::placeSwatches() {
             static_cast<float>(corner.x) + 0.5f * static_cast<float>(size.width - 1),
             static_cast<float>(corner.y) + 0.5f * static_cast<float>(size.height - 1));
         const auto number = static_cast<std::uint32_t>(result_.vertices.size());
-        for (const std::uint32_t vertex : mesh_.triangles[triangle]) {
-            result_.vertices.push_back(mesh_.vertices[vertex]);
-            result_.uv.push_back(toUv(middle, layout_.size));
-            source_.push_back(vertex);
-        }
+        for (const std::uint32_t vertex : mesh_.triangles[triangle]) addVertex(vertex, middle);
         result_.triangles.push_back({number, number + 1, number + 2});
     }
 }

@@ -69,7 +69,10 @@ class TextureBuilder {
     void measureCharts();
     void collectSwatches();
     void placeCharts();
+    void placeChart(const Chart& chart, const cv::Point& corner);
     void placeSwatches();
+    /** \param pixel of the texture */
+    void addVertex(std::uint32_t vertex, const Eigen::Vector2f& pixel);
     cv::Scalar gainOf(const Chart& chart, const cv::Mat3b& color, const View& view) const;
     const View& viewOf(int number) const;
 
