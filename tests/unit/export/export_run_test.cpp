@@ -83,6 +83,27 @@ TEST_F(ExportRun, doesNotReplaceAFolderOfSomeoneElse) {
     EXPECT_TRUE(fs::exists(folder_ / "mine/nerfstudio/thesis.txt"));
 }
 
+/** Puts a program of that text first on the PATH. */
+void installSm2mm(const TestFolder& folder, const std::string& text) {
+    folder.write("bin/sm2mm", "#!/bin/sh\n" + text);
+    fs::permissions(folder / "bin/sm2mm", fs::perms::owner_all);
+    setenv("PATH", (folder / "bin" + ":/usr/bin:/bin").c_str(), 1);
+}
+
+TEST_F(ExportRun, hasMetricMapsMadeBySm2mm) {
+    folder_.write("run/map.simplemap", "keyframes");
+    const std::string output = folder_ / "it's a map.mm";
+    installSm2mm(folder_, "[ \"$1$3\" = -i-o ] && cp \"$2\" \"$4\"\n");
+    write("mm", output);
+    EXPECT_EQ(readText(output), "keyframes");
+    installSm2mm(folder_, "exit 3\n");
+    EXPECT_THAT(problemOf([&] { write("mm", output); }), HasSubstr("sm2mm ended with code 3"));
+    EXPECT_EQ(readText(output), "keyframes");
+    fs::remove(folder_ / "bin/sm2mm");
+    setenv("PATH", (folder_ / "bin").c_str(), 1);
+    EXPECT_THAT(problemOf([&] { write("mm", output); }), HasSubstr("mp2p_icp (not part of Debian"));
+}
+
 TEST_F(ExportRun, namesWhatIsMissingAndHowToGetIt) {
     const auto problem = [&](const std::string& format) {
         return problemOf([&] { write(format); });
