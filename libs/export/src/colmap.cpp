@@ -80,6 +80,28 @@ class TrackedPoints {
     std::vector<ColmapPoint> points_;
 };
 
+/** Removing distortion cuts off borders, and with them features. */
+void dropShortTracks(ColmapModel& model) {
+    std::vector<std::size_t> length(model.points.size()), number(model.points.size());
+    for (const ColmapImage& image : model.images) {
+        for (const ColmapFeature& feature : image.features) ++length[feature.point];
+    }
+    std::vector<ColmapPoint> kept;
+    for (std::size_t i = 0; i < length.size(); ++i) {
+        number[i] = kept.size();
+        if (length[i] >= shortest_track) kept.push_back(model.points[i]);
+    }
+    model.points = std::move(kept);
+    for (ColmapImage& image : model.images) {
+        std::vector<ColmapFeature> features;
+        for (const ColmapFeature& feature : image.features) {
+            if (length[feature.point] >= shortest_track)
+                features.push_back({feature.pixel, number[feature.point]});
+        }
+        image.features = std::move(features);
+    }
+}
+
 std::vector<ColmapPoint> densePoints(const std::string& run_folder) {
     std::vector<ColmapPoint> points;
     for (const MapPoint& point : readRunPoints(run_folder, most_points))
@@ -138,7 +160,9 @@ class ColmapExporter : public Exporter {
             writeImage((out / "images" / entry.name).string(), image.color);
             model.images.push_back(std::move(entry));
         });
-        if (!tracks.empty()) model.points = tracked.take();
+        if (tracks.empty()) return;
+        model.points = tracked.take();
+        dropShortTracks(model);
     }
 
     static void writeModel(const ColmapModel& model, const fs::path& folder) {
