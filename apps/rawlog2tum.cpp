@@ -1,5 +1,6 @@
 /** rawlog2tum: the RGB-D frames of an MRPT rawlog become a TUM RGB-D sequence. */
 #include <cstdio>
+#include <filesystem>
 
 #include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
@@ -16,9 +17,16 @@ struct Arguments {
 void declare(CLI::App& app, Arguments& args) {
     app.add_option("RAWLOG", args.rawlog, "Rawlog with RGB-D frames")->required();
     app.add_option("DIR", args.folder, "Folder to make")->required();
-    app.add_option("--from", args.options.from_s, "Leave out what is earlier, s after first frame");
-    app.add_option("--to", args.options.to_s, "Leave out what is later, s after first frame");
-    app.add_option("--every", args.options.every, "Every n-th frame")
+    app.add_option("--sensor", args.options.sensor_label,
+                   "Sensor label of the camera to export; default: all, one subfolder per camera")
+        ->type_name("LABEL");
+    app.add_option("--from", args.options.from_s, "Skip what is earlier [s after the first frame]");
+    app.add_option("--to", args.options.to_s, "Skip what is later [s after the first frame]");
+    app.add_option("--every", args.options.every, "Export every n-th frame only")
+        ->check(positive())
+        ->capture_default_str();
+    app.add_option("--rate", args.options.rate_hz,
+                   "Frames per second of cameras whose frames have no timestamps")
         ->check(positive())
         ->capture_default_str();
     app.add_option("--threads", args.options.threads, "Threads that encode images")
@@ -28,9 +36,16 @@ void declare(CLI::App& app, Arguments& args) {
 }
 
 int run(const Arguments& args) {
-    const ExportReport report = exportTumSequence(args.rawlog, args.folder, args.options);
-    std::printf("%zu frames, %zu IMU readings, %zu odometry readings, %zu ground truth poses\n",
-                report.frames, report.imu, report.odometry, report.truth);
+    for (const ExportReport& report : exportTumSequence(args.rawlog, args.folder, args.options)) {
+        const std::string folder =
+            report.subfolder.empty()
+                ? ""
+                : (std::filesystem::path(args.folder) / report.subfolder).string() + ": ";
+        for (const std::string& note : report.notes) sayWarning(folder + note);
+        std::printf(
+            "%s%zu frames, %zu IMU readings, %zu odometry readings, %zu ground truth poses\n",
+            folder.c_str(), report.frames, report.imu, report.odometry, report.truth);
+    }
     return 0;
 }
 

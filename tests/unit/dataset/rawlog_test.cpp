@@ -240,7 +240,7 @@ TEST_F(RawlogTest, fragmentsAreCutByTimeAndThinned) {
     options.from_s = 0.02;
     options.to_s = 0.11;
     options.every = 2;
-    EXPECT_EQ(exportTumSequence(rawlog(), folder_ / "part", options).frames, 2u);
+    EXPECT_EQ(exportTumSequence(rawlog(), folder_ / "part", options).at(0).frames, 2u);
     const RgbdSequence part = readTumSequence(folder_ / "part");
     EXPECT_EQ(part.color.at(0).file, small_sequence::colorFile(1));
     EXPECT_EQ(part.color.at(1).file, small_sequence::colorFile(3));
