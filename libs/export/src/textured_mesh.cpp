@@ -205,36 +205,43 @@ void TextureBuilder::placeSwatches() {
     }
 }
 
-cv::Scalar TextureBuilder::gainOf(const Chart& chart, const cv::Mat3b& color,
-                                  const View& view) const {
-    // As if so many vertices more agreed: small charts say little.
-    constexpr double prior = 10 * 128, least = 0.6, most = 1.6;
+cv::Mat3f TextureBuilder::correctionOf(const Chart& chart, const cv::Mat3b& color,
+                                       const View& view) const {
+    constexpr double smoothing_px = 15, most = 80;
+    constexpr float prior = 3e-4f;  // keeps single vertices far away from deciding all
     const SE3 T_cam_world = view.T_world_cam.inverse();
-    cv::Scalar wanted = cv::Scalar::all(prior), found = cv::Scalar::all(prior);
+    const cv::Size size = chart.in_image.size();
+    cv::Mat3f difference = cv::Mat3f::zeros(size);
+    cv::Mat1f weight = cv::Mat1f::zeros(size);
     for (std::size_t i = chart.first_vertex; i < chart.last_vertex; ++i) {
         const Eigen::Vector2f pixel = pixelOf(result_.vertices[i], view.camera, T_cam_world);
-        const cv::Vec3b& seen = color(std::clamp(cvRound(pixel.y()), 0, color.rows - 1),
-                                      std::clamp(cvRound(pixel.x()), 0, color.cols - 1));
+        const cv::Point at(std::clamp(cvRound(pixel.x()), 0, color.cols - 1),
+                           std::clamp(cvRound(pixel.y()), 0, color.rows - 1));
         const auto& rgb = mesh_.colors[source_[i]];
-        for (int channel = 0; channel < 3; ++channel) {
-            wanted[channel] += rgb[static_cast<std::size_t>(2 - channel)];
-            found[channel] += seen[channel];
-        }
+        const cv::Point in_chart = at - chart.in_image.tl();
+        difference(in_chart) += cv::Vec3f(rgb[2], rgb[1], rgb[0]) - cv::Vec3f(color(at));
+        weight(in_chart) += 1;
     }
-    cv::Scalar gain;
-    for (int channel = 0; channel < 3; ++channel)
-        gain[channel] = std::clamp(wanted[channel] / found[channel], least, most);
-    return gain;
+    cv::GaussianBlur(difference, difference, {}, smoothing_px, 0, cv::BORDER_CONSTANT);
+    cv::GaussianBlur(weight, weight, {}, smoothing_px, 0, cv::BORDER_CONSTANT);
+    cv::Mat3f divisor;
+    cv::merge(std::vector<cv::Mat>(3, weight + prior), divisor);
+    cv::Mat3f correction = difference / divisor;
+    cv::min(correction, cv::Scalar::all(most), correction);
+    cv::max(correction, cv::Scalar::all(-most), correction);
+    return correction;
 }
 
 void TextureBuilder::paint(int view, const Camera& camera, const SE3& T_world_cam,
                            const cv::Mat3b& color) {
     const View as_seen{view, camera, T_world_cam};
+    cv::Mat3b smooth;  // about as sharp as the mesh's colors
+    cv::GaussianBlur(color, smooth, {}, 2);
     for (std::size_t c = 0; c < charts_.size(); ++c) {
         const Chart& chart = charts_[c];
         if (chart.view != view) continue;
         cv::Mat3b patch = cutOut(color, chart.in_image);
-        cv::multiply(patch, gainOf(chart, color, as_seen), patch);
+        cv::add(patch, correctionOf(chart, smooth, as_seen), patch, {}, CV_8U);
         const cv::Size size = scaled(patch.size(), layout_.scale);
         if (size != patch.size()) cv::resize(patch, patch, size, 0, 0, cv::INTER_AREA);
         patch.copyTo(result_.texture(cv::Rect(layout_.corners[c], size)));

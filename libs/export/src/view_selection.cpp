@@ -117,7 +117,8 @@ ViewSelection::ViewSelection(const PlyModel& mesh)
 
 float ViewSelection::score(std::size_t triangle, const ProjectedMesh& seen, const Camera& camera,
                            const cv::Mat1w& depth, double depth_unit_m) const {
-    constexpr float least_tolerance_m = 0.05f, tolerance_share = 0.03f, without_reading = 0.5f;
+    constexpr float least_tolerance_m = 0.05f, tolerance_share = 0.03f, without_reading = 0.5f,
+                    turned_away = 0.01f;
     const Triangle& t = mesh_.triangles[triangle];
     const Eigen::Vector3f &a = seen.vertices[t[0]], &b = seen.vertices[t[1]],
                           &c = seen.vertices[t[2]];
@@ -132,16 +133,16 @@ float ViewSelection::score(std::size_t triangle, const ProjectedMesh& seen, cons
         if (p->z() > seen.nearest(pixelOf(*p)) + slack_m) return 0;
     }
     const float area_px = -0.5f * signedArea2(a, b, c);
-    if (area_px <= 0) return 0;
     // Area in the image over the area that the triangle would have face on.
     const float pixels_per_m2 =
         static_cast<float>(camera.fx * camera.fy) / (middle.z() * middle.z());
     const float cosine = area_px / (0.5f * normalOf(mesh_, t).norm() * pixels_per_m2);
-    if (cosine < least_cosine) return 0;
     const float reading_m = static_cast<float>(depth(pixelOf(middle)) * depth_unit_m);
     const float agreement_m = std::max(least_tolerance_m, tolerance_share * middle.z());
     if (reading_m > 0 && std::abs(reading_m - middle.z()) > agreement_m) return 0;
-    return area_px * std::min(cosine, 1.f) * (reading_m > 0 ? 1 : without_reading);
+    const float trust = reading_m > 0 ? 1 : without_reading;
+    if (cosine < least_cosine) return trust * turned_away * std::abs(area_px);
+    return trust * area_px * std::min(cosine, 1.f);
 }
 
 void ViewSelection::keep(std::size_t triangle, Candidate candidate) {

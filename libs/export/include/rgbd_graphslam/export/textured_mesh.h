@@ -22,11 +22,11 @@ struct TexturedMesh {
 };
 
 /** Makes a texture for a mesh from images that are given one by one, twice: first all go to
- * addView(), then, after plan(), all go to paint(). Triangles that hang together and get the same
- * image are a chart, a rectangle of that image in the texture, brightened or darkened to the mean
- * color that all views together gave to the mesh there, so that exposure changes do not show (the
- * outline follows Waechter et al., "Let there be color!", ECCV 2014). Triangles that no image shows
- * get the mean color of their vertices. */
+ *  addView(), then, after plan(), all go to paint(). Triangles that hang together and get the same
+ *  image are a chart, a rectangle of that image in the texture (the outline follows Waechter et
+ * al., "Let there be color!", ECCV 2014). Slow changes of color over a chart are replaced by those
+ * of the mesh's own colors, the mean of all views, so that exposure changes do not show as seams.
+ * Triangles that no image shows get the mean color of their vertices. */
 class TextureBuilder {
   public:
     /** \param mesh with colors; must outlive this
@@ -73,7 +73,10 @@ class TextureBuilder {
     void placeSwatches();
     /** \param pixel of the texture */
     void addVertex(std::uint32_t vertex, const Eigen::Vector2f& pixel);
-    cv::Scalar gainOf(const Chart& chart, const cv::Mat3b& color, const View& view) const;
+    /** What to add to the image within a chart, so that it has on average, over some 15 pixels
+     *  around, the color that all views together gave to the mesh: normalized convolution (Knutsson
+     *  and Westin, CVPR 1993) of the differences at the chart's vertices. */
+    cv::Mat3f correctionOf(const Chart& chart, const cv::Mat3b& color, const View& view) const;
     const View& viewOf(int number) const;
 
     const PlyModel& mesh_;

@@ -27,9 +27,10 @@ struct ProjectedMesh {
 };
 
 /** Collects views one by one and keeps the best few of each triangle. A view shows a triangle when
- * it faces the camera, lies in the image as a whole, is not hidden by the mesh and agrees with the
- *  depth image, so that people who walked by do not end up on walls. The larger its projection and
- *  the more it faces the camera the better. */
+ *  it lies in the image as a whole, is not hidden by the mesh and agrees with the depth image, so
+ * that people who walked by do not end up on walls. The larger its projection and the more it faces
+ * the camera the better. Noise turns some triangles away from all cameras that saw them: views of a
+ * back come last. */
 class ViewSelection {
   public:
     static constexpr int no_view = -1;
