@@ -3,6 +3,7 @@
 
 #include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/printable_text.h"
 #include "rgbd_graphslam/export/exporter.h"
 
 using namespace rgbd_graphslam;
@@ -52,7 +53,7 @@ int main(int argc, char** argv) {
     return runProgram(app, argc, argv, [&] {
         for (const ExportedFile& file : exportRun(folder, formats, options, output)) {
             if (verbosity() != Verbosity::Quiet)
-                std::printf("%s: %s\n", file.path.c_str(), file.summary.c_str());
+                std::printf("%s: %s\n", printableLine(file.path).c_str(), file.summary.c_str());
         }
         return 0;
     });

@@ -56,6 +56,8 @@ TEST_F(FaultNames, ofFilesThatAreNotThere) {
     expectRefused("rgbd-import", name + " out.rawlog");
     expectRefused("rawlog2tum", name + " out");
     expectRefused("rgbd-map", name);
+    expectRefused("rgbd-export", name + " --to tum");
+    expectRefused("rgbd-export", ". --to " + inQuotes(odd));
 }
 
 TEST_F(FaultNames, inWhatIsReadAreShownInLetters) {
