@@ -92,13 +92,13 @@ run_demo() {
         awk '/translational_error.rmse/ { m = $2 } /rotational_error.rmse/ { deg = $2 }
              END { printf "RPE RMSE      %.4f m, %.2f deg over 1 s", m, deg }')
     say "Rendering the map"
-    "$bin/rgbd-viewer" "$out" --snapshot "$out/view.png" --zoom 1.45
+    "$bin/rgbd-viewer" "$out" --snapshot "$out/view.png"
     say "Results"
     sed -e "/^ATE RMSE/a $drift" -e '/^written/d' <<<"$figures"
     say "Everything is in $out"
     cat <<END
   $out/view.png         picture of the map
-  $out/map.png          the map from above
+  $out/map.png          the map from above; map3d.jpg: in perspective
   $out/ate.png          trajectory and truth; ate.txt has the figures
   $out/points.ply       coloured points (MeshLab, CloudCompare)
   $out/octree.bt        octree with free space (octovis)

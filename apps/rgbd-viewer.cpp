@@ -4,6 +4,7 @@
 #include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/mapping/run_folder.h"
 #include "rgbd_graphslam/viewer/snapshot.h"
 #include "rgbd_graphslam/viewer/viewer_app.h"
 
@@ -20,27 +21,31 @@ struct Arguments {
 
 void declare(CLI::App& app, Arguments& args) {
     app.add_option("OUT", args.job.path, "Output folder of rgbd-slam, or a .ply")->required();
-    app.add_flag("--follow", args.job.follow,
-                 "Watch the rgbd-slam that writes to OUT, now or soon; then show its result");
+    app.add_flag(
+        "--follow", args.job.follow,
+        "Follow the rgbd-slam that writes to OUT, running or about to start; then show its result");
     app.add_option("--screenshot", args.job.screenshot,
-                   "Open the window, write it to this PNG once all is shown, and end");
+                   "Open the window, save it as this PNG once everything is shown, and quit");
     app.add_option("--benchmark", args.job.benchmark_s,
-                   "Open the window, measure the frame rate for so many seconds, and end")
+                   "Open the window, measure the frame rate for this many seconds, and quit")
         ->check(positive());
-    auto* snapshot = app.add_option("--snapshot", args.snapshot,
-                                    "PNG to write without a window; needs no display");
+    auto* snapshot =
+        app.add_option("--snapshot", args.snapshot,
+                       "Render the map to this PNG without a window; needs no display");
     const auto add = [&](const char* name, auto& value, const char* help) {
         return app.add_option(name, value, help)->needs(snapshot);
     };
-    add("--width", args.view.width_px, "Pixels of the snapshot")->check(CLI::Range(16, 8192));
-    add("--height", args.view.height_px, "Pixels of the snapshot")->check(CLI::Range(16, 8192));
-    add("--azimuth", args.view.azimuth_deg, "Look from this direction, degrees from +x");
-    add("--elevation", args.view.elevation_deg, "Look down from this angle, degrees")
+    add("--width", args.view.width_px, "Width of the snapshot [px]")->check(CLI::Range(16, 8192));
+    add("--height", args.view.height_px, "Height of the snapshot [px]")
+        ->check(CLI::Range(16, 8192));
+    add("--azimuth", args.view.azimuth_deg, "Direction the camera looks from [deg from +x]");
+    add("--elevation", args.view.elevation_deg, "Angle the camera looks down from [deg]")
         ->check(CLI::Range(-89, 90));
-    add("--zoom", args.view.zoom, "Above 1 is nearer")->check(positive());
+    add("--zoom", args.view.zoom, "Magnification; above 1 is closer")->check(positive());
     app.add_flag("--mesh", args.as_mesh, "Show the mesh in the snapshot instead of the points")
         ->needs(snapshot);
-    app.add_flag("--ceiling", args.with_ceiling, "Leave the ceiling on")->needs(snapshot);
+    app.add_flag("--ceiling", args.with_ceiling, "Keep the ceiling in the snapshot")
+        ->needs(snapshot);
 }
 
 /** An output folder stands for its scene. */
@@ -64,7 +69,7 @@ int run(Arguments& args) {
         runViewer(args.job);
         return 0;
     }
-    args.view.cut_ceiling = !args.with_ceiling;
+    args.view.cut_ceiling = !args.with_ceiling && !upIsGuessed(args.job.path);
     const PlyModel mesh = args.as_mesh ? meshOf(args.job.path) : PlyModel();
     renderSnapshot(loadScene(scenePath(args.job.path)), args.view, args.snapshot, mesh);
     sayInfo("wrote " + args.snapshot);
@@ -75,8 +80,10 @@ int run(Arguments& args) {
 
 int main(int argc, char** argv) {
     Arguments args;
-    CLI::App app("Shows a finished run in a window, press ? there for help; or renders its map.",
-                 "rgbd-viewer");
+    CLI::App app(
+        "Visualizes a finished or running SLAM session in a window (press ? there for help), or "
+        "renders its map to a PNG.",
+        "rgbd-viewer");
     declare(app, args);
     declareCommonOptions(app);
     return runProgram(app, argc, argv, [&] { return run(args); });

@@ -7,6 +7,7 @@
 
 #include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/evaluation/statistics.h"
+#include "run_origin.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -110,6 +111,7 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
     const Json summary = {
         {"version", RGBD_VERSION},
         {"config_hash", configHash(job.options)},
+        {"origin", originJson(report.camera)},
         {"rawlog", std::filesystem::absolute(job.rawlog).lexically_normal().string()},
         {"map", mapJson(job)},
         {"earlier_sessions", earlierJson(report)},

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
+#include <utility>
 
 #include "output_texts.h"
 #include "rgbd_graphslam/core/atomic_file.h"
@@ -94,8 +95,10 @@ void writeMap(RunState& run) {
                                      : run.level.uprightFromWorld(inputs, run.session.T_base_cam());
     const MapInputs upright = transformed(T_up_world, inputs);
     writeAllPoses(run, upright, T_up_world);
-    writeSparseMap(pathOf(run, sparse_map_name), {run.session.slam().snapshot(), T_up_world,
-                                                  configHash(run.job.options), run.sessions()});
+    MapSnapshot snapshot = run.session.slam().snapshot();
+    run.report.camera = snapshot.camera;
+    writeSparseMap(pathOf(run, sparse_map_name),
+                   {std::move(snapshot), T_up_world, configHash(run.job.options), run.sessions()});
     const ThreadClock clock;
     if (run.job.options.run.dense_maps) {
         writeMaps(upright, run.job.options.maps, run.job.out_folder);

@@ -103,7 +103,10 @@ Eigen::Vector3d LevelSurvey::findUp(const MapInputs& kept, const std::vector<Sur
         const auto up = upFromFloor(patches, meanCameraTop(kept.keyframes), camera_error);
         if (up) return *up;
     }
-    sayWarning("up is taken from the first camera, as if it had been level");
+    const bool was_asked_for = options_.upright == "none";
+    sayWarning(
+        std::string(was_asked_for ? "upright = none" : "no accelerometer and no floor found") +
+        ": " + guessed_up + ", so the map may be tilted and the floor's height is arbitrary");
     return -kept.keyframes.front().T_world_cam.R.col(1);
 }
 

@@ -16,6 +16,7 @@
 #include "rgbd_graphslam/mapping/keyframe_reader.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 #include "rgbd_graphslam/mapping/map_scene.h"
+#include "rgbd_graphslam/mapping/perspective_view.h"
 #include "rgbd_graphslam/mapping/plan_view.h"
 #include "rgbd_graphslam/mapping/simple_map.h"
 #include "rgbd_graphslam/mapping/view_coverage.h"
@@ -93,7 +94,20 @@ std::size_t writeMesh(const DenseMapper& dense, const std::string& path) {
     return mesh.triangles.size();
 }
 
-MapSummary writeFiles(const MapInputs& inputs, const Maps& maps, const std::string& folder) {
+void writePictures(const MapInputs& inputs, const PointMap& points, double spacing_m,
+                   const std::string& folder) {
+    const auto write = [&](const char* name, const cv::Mat& picture) {
+        sayDetail(std::string("writing ") + name);
+        writeAtomically(folder + "/" + name, [&](const std::string& temporary) {
+            return cv::imwrite(temporary, picture);
+        });
+    };
+    write("map.png", planView(inputs, points));
+    write("map3d.jpg", perspectiveView(inputs, points, spacing_m));
+}
+
+MapSummary writeFiles(const MapInputs& inputs, const Maps& maps, const MapOptions& options,
+                      const std::string& folder) {
     const auto path = [&](const char* name) {
         sayDetail(std::string("writing ") + name);
         return folder + "/" + name;
@@ -112,9 +126,7 @@ MapSummary writeFiles(const MapInputs& inputs, const Maps& maps, const std::stri
     saveRosGrid(path("grid"), grid);
     saveMrptObject(path("map.simplemap"), maps.simple);
     saveMrptObject(path("scene.3Dscene"), makeScene(inputs, points, *maps.camera));
-    const cv::Mat picture = planView(inputs, points);
-    writeAtomically(path("map.png"),
-                    [&](const std::string& temporary) { return cv::imwrite(temporary, picture); });
+    writePictures(inputs, points, options.point_voxel_m, folder);
     summary.triangles = writeMesh(*maps.dense, path("mesh.ply"));
     summary.points = points.size();
     summary.octree_leaves = tree->getNumLeafNodes();
@@ -134,7 +146,7 @@ MapSummary writeMaps(const MapInputs& inputs, const MapOptions& options,
     const std::size_t found = addSessions(maps, connected, options);
     if (found == 0) throw Error("no rawlog of the keyframes is left", "give --rawlog FILE");
     maps.finish();
-    MapSummary summary = writeFiles(connected, maps, out_folder);
+    MapSummary summary = writeFiles(connected, maps, options, out_folder);
     summary.keyframes = found;
     summary.insert_ms = maps.insert_ms / static_cast<double>(found);
     const auto megabytes = [](std::size_t bytes) { return 1e-6 * static_cast<double>(bytes); };

@@ -7,26 +7,27 @@
 #include <mrpt/opengl/CText.h>
 #include <mrpt/opengl/stock_objects.h>
 
-#include <cmath>
+#include "rgbd_graphslam/mapping/framing.h"
+#include "rgbd_graphslam/mapping/scene_colors.h"
+#include "rgbd_graphslam/mapping/view_scale.h"
 
 namespace rgbd_graphslam {
 namespace {
 
 using mrpt::img::TColor;
 
-const TColor background(236, 239, 243), floor_color(168, 176, 188, 200),
-    trajectory_color(235, 95, 0), keyframe_color(30, 90, 200), loop_color(215, 25, 60),
-    before_color(130, 130, 140, 150);
-constexpr double frustum_depth_m = 0.12;
+TColor colorOf(const Rgba& color) {
+    return {color[0], color[1], color[2], color[3]};
+}
 
 mrpt::math::TPoint3D point(const Eigen::Vector3d& p) {
     return {p.x(), p.y(), p.z()};
 }
 
-mrpt::opengl::CSetOfLines::Ptr lines(const char* name, const TColor& color, float width_px) {
+mrpt::opengl::CSetOfLines::Ptr lines(const char* name, const Rgba& color, float width_px) {
     auto object = mrpt::opengl::CSetOfLines::Create();
     object->setName(name);
-    object->setColor_u8(color);
+    object->setColor_u8(colorOf(color));
     object->setLineWidth(width_px);
     return object;
 }
@@ -61,11 +62,10 @@ mrpt::opengl::CSetOfLines::Ptr linesBeforeLoops(const MapInputs& inputs) {
     return object;
 }
 
-void addFrustum(mrpt::opengl::CSetOfLines& object, const SE3& T, const Camera& camera) {
+void addFrustum(mrpt::opengl::CSetOfLines& object, const SE3& T, const Camera& camera,
+                double depth_m) {
     const double w = camera.width - 1, h = camera.height - 1;
-    const auto corner = [&](double u, double v) {
-        return T * camera.unproject(u, v, frustum_depth_m);
-    };
+    const auto corner = [&](double u, double v) { return T * camera.unproject(u, v, depth_m); };
     const Eigen::Vector3d corners[] = {corner(0, 0), corner(w, 0), corner(w, h), corner(0, h)};
     for (int i = 0; i < 4; ++i) {
         addSegment(object, T.t, corners[i]);
@@ -75,7 +75,9 @@ void addFrustum(mrpt::opengl::CSetOfLines& object, const SE3& T, const Camera& c
 
 mrpt::opengl::CSetOfLines::Ptr frustums(const Trajectory& keyframes, const Camera& camera) {
     auto object = lines(scene_names::keyframes, keyframe_color, 1.5f);
-    for (const auto& keyframe : keyframes) addFrustum(*object, keyframe.T_world_cam, camera);
+    const double depth_m = frustumDepth(keyframes);
+    for (const std::size_t k : sparseKeyframes(keyframes, depth_m))
+        addFrustum(*object, keyframes[k].T_world_cam, camera, depth_m);
     return object;
 }
 
@@ -97,7 +99,7 @@ mrpt::opengl::CSetOfObjects::Ptr loopInliers(const MapInputs& inputs) {
                               &to = inputs.keyframes[loop.to].T_world_cam.t;
         auto text = mrpt::opengl::CText::Create(std::to_string(loop.inliers));
         text->setName("loop " + std::to_string(loop.from) + "-" + std::to_string(loop.to));
-        text->setColor_u8(loop_color);
+        text->setColor_u8(colorOf(loop_color));
         text->setLocation(point((from + to) / 2));
         all->insert(text);
     }
@@ -115,17 +117,13 @@ mrpt::opengl::CPointCloudColoured::Ptr cloud(const PointMap& points) {
     return object;
 }
 
-mrpt::opengl::CGridPlaneXY::Ptr floorGrid(const PointMap& points) {
-    Eigen::Vector3f low(-1, -1, 0), high(1, 1, 0);
-    for (const MapPoint& point : points) {
-        low = low.cwiseMin(point.position);
-        high = high.cwiseMax(point.position);
-    }
-    auto object =
-        mrpt::opengl::CGridPlaneXY::Create(std::floor(low.x()), std::ceil(high.x()),
-                                           std::floor(low.y()), std::ceil(high.y()), 0.f, 1.f);
+mrpt::opengl::CGridPlaneXY::Ptr floorLines(const MapInputs& inputs, const PointMap& points) {
+    const FloorGrid grid = floorGrid(framingOf(points, inputs.keyframes, inputs.trajectory).box);
+    const auto f = [](double m) { return static_cast<float>(m); };
+    auto object = mrpt::opengl::CGridPlaneXY::Create(
+        f(grid.x_min_m), f(grid.x_max_m), f(grid.y_min_m), f(grid.y_max_m), 0.f, f(grid.step_m));
     object->setName(scene_names::floor);
-    object->setColor_u8(floor_color);
+    object->setColor_u8(colorOf(floor_color));
     return object;
 }
 
@@ -134,8 +132,8 @@ mrpt::opengl::CGridPlaneXY::Ptr floorGrid(const PointMap& points) {
 mrpt::opengl::COpenGLScene makeScene(const MapInputs& inputs, const PointMap& points,
                                      const Camera& camera) {
     mrpt::opengl::COpenGLScene scene;
-    scene.getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(background));
-    scene.insert(floorGrid(points));
+    scene.getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(colorOf(background_color)));
+    scene.insert(floorLines(inputs, points));
     scene.insert(cloud(points));
     scene.insert(trajectoryLines(inputs));
     scene.insert(frustums(inputs.keyframes, camera));

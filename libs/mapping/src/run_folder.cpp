@@ -1,11 +1,13 @@
 #include "rgbd_graphslam/mapping/run_folder.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/mapping/level_survey.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;
@@ -83,6 +85,17 @@ std::vector<double> unplacedFrames(const fs::path& frames_csv, const Trajectory&
 }
 
 }  // namespace
+
+bool upIsGuessed(const std::string& folder) {
+    constexpr const char* earlier_words = "as if it had been level";  // of older versions
+    const auto warnings =
+        readSummary(fs::path(folder) / "summary.json").value("warnings", nlohmann::json::array());
+    return std::any_of(warnings.begin(), warnings.end(), [&](const nlohmann::json& warning) {
+        const std::string text = warning.is_string() ? warning.get<std::string>() : std::string();
+        return text.find(guessed_up) != std::string::npos ||
+               text.find(earlier_words) != std::string::npos;
+    });
+}
 
 MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
     const fs::path root(folder);

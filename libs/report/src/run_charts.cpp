@@ -66,7 +66,7 @@ void addSessions(std::vector<ChartLine>& lines, const RunRecord& run, std::strin
 }  // namespace
 
 std::string pathChart(const RunRecord& run) {
-    auto lines = pathPieces(run, "truth", "truth", run.truth);
+    auto lines = pathPieces(run, "ground truth", "truth", run.truth);
     const auto estimate = pathPieces(run, "estimate", "estimate", run.trajectory);
     lines.insert(lines.end(), estimate.begin(), estimate.end());
     return planChart(lines);
@@ -75,8 +75,8 @@ std::string pathChart(const RunRecord& run) {
 std::string loopChart(const RunRecord& run) {
     if (run.loops.empty()) return {};
     std::vector<ChartLine> lines;
-    addSessions(lines, run, "keyframes by tracking alone", "before", run.keyframes_before_loops);
-    addSessions(lines, run, "keyframes with loops", "after", run.keyframes);
+    addSessions(lines, run, "before loop closure", "before", run.keyframes_before_loops);
+    addSessions(lines, run, "after loop closure", "after", run.keyframes);
     const auto at = [&](int keyframe) -> Eigen::Vector2d {
         return run.keyframes[static_cast<std::size_t>(keyframe)].T_world_cam.t.head<2>();
     };
@@ -94,8 +94,7 @@ std::string errorChart(const RunRecord& run, const AteResult& ate) {
         seconds.push_back(pair.stamp_s - run.start_s);
         line.points.emplace_back(seconds.back(), 1e3 * pair.error_m().norm());
     }
-    return timeChart(withoutGaps(line, seconds, lostSpans(run.frames)),
-                     "distance to the true place, mm");
+    return timeChart(withoutGaps(line, seconds, lostSpans(run.frames)), "position error [mm]");
 }
 
 std::string landmarkChart(const RunRecord& run) {
@@ -105,8 +104,8 @@ std::string landmarkChart(const RunRecord& run) {
     }
     std::vector<std::pair<double, double>> lost;
     for (const LostSpan& span : lostSpans(run.frames)) lost.emplace_back(span.first_s, span.last_s);
-    return timeChart({line}, lost.empty() ? "landmarks a frame" : "landmarks a frame; lost: red",
-                     lost);
+    return timeChart(
+        {line}, lost.empty() ? "inliers per frame" : "inliers per frame; lost frames red", lost);
 }
 
 }  // namespace rgbd_graphslam

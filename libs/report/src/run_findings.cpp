@@ -26,7 +26,7 @@ class Findings {
         for (const std::string& warning : run_.warnings) warn(warning);
         aboutLoops();
         if (run_.map_png.empty()) {
-            note("no dense maps were made; rgbd-map makes them from this folder");
+            note("no dense maps were made; run rgbd-map on this folder to make them");
         }
         return std::move(findings_);
     }
@@ -92,14 +92,14 @@ class Findings {
         }
         if (few * 10 < located || few == 0) return;
         warn(formatted(
-            "%.0f %% of the tracked frames rest on fewer than %d landmarks: little "
+            "%.0f %% of the tracked frames have fewer than %d inliers: little "
             "texture, blur, darkness or people in front of the camera",
             100. * static_cast<double>(few) / static_cast<double>(located), few_landmarks));
     }
 
     void aboutLoops() {
         if (run_.loops.empty()) {
-            if (run_.path_m > 10) note("no loop was closed: drift of the path is not corrected");
+            if (run_.path_m > 10) note("no loop was closed: drift is not corrected");
             return;
         }
         double largest_m = 0;
@@ -115,8 +115,7 @@ class Findings {
                 wrong == 1 ? "it joins are" : "they join are"));
         }
         note(std::to_string(run_.loops.size()) + (run_.loops.size() == 1 ? " loop" : " loops") +
-             formatted(" closed; compared with tracking alone keyframes are up to %.2f m elsewhere",
-                       largest_m));
+             formatted(" closed; loop closure moved keyframes by up to %.2f m", largest_m));
     }
 
     const RunRecord& run_;

@@ -81,7 +81,23 @@ std::optional<double> loopErrorOf(const Json& edge) {
     return edge.at(3).get<double>();
 }
 
+RunOrigin originOf(const Json& summary) {
+    const Json json = summary.value("origin", Json::object());
+    RunOrigin origin{json.value("command", ""), json.value("date", ""), {}};
+    const Json camera = json.value("camera", Json());
+    if (camera.is_null()) return origin;
+    origin.camera = Camera{camera.at("width"),
+                           camera.at("height"),
+                           camera.at("fx"),
+                           camera.at("fy"),
+                           camera.at("cx"),
+                           camera.at("cy"),
+                           camera.at("distortion").get<std::array<double, 5>>()};
+    return origin;
+}
+
 void readFigures(const Json& summary, RunRecord& run) {
+    run.origin = originOf(summary);
     run.rawlog = textOf(summary, "rawlog");
     run.version = textOf(summary, "version");
     run.config_hash = textOf(summary, "config_hash");
@@ -148,6 +164,7 @@ RunRecord readRunRecord(const std::string& run_folder, const std::string& map_fo
     run.keyframes_before_loops = readIfThere(run_path / "keyframes_before_loops.txt");
     run.truth = readIfThere(run_path / "truth.txt");
     run.keyframes_jpg = bytesOf(run_path / "keyframes.jpg");
+    run.map3d_jpg = bytesOf(map_path / "map3d.jpg");
     run.map_png = bytesOf(map_path / "map.png");
     run.grid_png = bytesOf(map_path / "grid.png");
     checkLoops(run, run_folder);

@@ -74,9 +74,9 @@ class Page {
 
   private:
     std::string subtitle() const {
-        return "RGB-D SLAM of " + htmlEscaped(run_.rawlog) + " by rgbd-slam " +
-               htmlEscaped(run_.version) + ", settings " + htmlEscaped(run_.config_hash) +
-               " (config.ini)";
+        std::string text = "RGB-D SLAM by rgbd-slam " + htmlEscaped(run_.version);
+        if (!run_.origin.date.empty()) text += ", " + htmlEscaped(run_.origin.date);
+        return text;
     }
 
     std::string figures() const {
@@ -86,15 +86,15 @@ class Page {
         };
         const std::size_t located = run_.frames.size() - run_.count(FrameState::Lost);
         add(std::to_string(located) + " / " + std::to_string(run_.frames.size()),
-            "frames with a pose");
-        if (!run_.frames.empty()) add(formatted("%.1f s", run_.frames.back().seconds), "recorded");
-        add(formatted("%.2f m", run_.path_m), "path");
+            "frames with pose");
+        if (!run_.frames.empty()) add(formatted("%.1f s", run_.frames.back().seconds), "duration");
+        add(formatted("%.2f m", run_.path_m), "path length");
         add(std::to_string(run_.keyframes.size()), "keyframes");
         add(std::to_string(run_.loops.size()), "loops");
         add(std::to_string(run_.landmarks), "landmarks");
-        if (run_.ate_rmse_m) add(formatted("%.1f mm", 1e3 * *run_.ate_rmse_m), "ATE RMSE");
-        add(formatted("%.0f /s", run_.frames_per_s), "frames");
-        add(formatted("%.1f ms", run_.cpu_ms_a_frame), "CPU a frame");
+        if (run_.ate_rmse_m) add(figureText(1e3 * *run_.ate_rmse_m) + " mm", "ATE RMSE");
+        add(formatted("%.0f", run_.frames_per_s), "frames/s");
+        add(figureText(run_.cpu_ms_a_frame) + " ms", "CPU per frame");
         add(formatted("%.0f MB", run_.peak_memory_mb), "peak memory");
         return html;
     }
@@ -105,8 +105,7 @@ class Page {
             return finding.kind == Finding::Kind::Warning;
         });
         std::string html;
-        if (!warned)
-            html += "<li class=\"good\">every frame was tracked; nothing to warn of</li>\n";
+        if (!warned) html += "<li class=\"good\">all frames were tracked; no warnings</li>\n";
         for (const Finding& finding : found) {
             html += finding.kind == Finding::Kind::Warning ? "<li class=\"warning\">" : "<li>";
             html += htmlEscaped(finding.text) + "</li>\n";
@@ -115,18 +114,27 @@ class Page {
     }
 
     std::string sections() const {
-        return section("Map from above", mapPicture()) +
+        return section("3-D map", perspective(), "wide") + section("Map from above", mapPicture()) +
                section("Obstacles and free space", grid()) +
-               section("Path from above", pathChart(run_)) +
-               section("Before and after loops", loops()) +
+               section("Trajectory from above", pathChart(run_)) +
+               section("Loop closure", loops()) +
                section("Error over time", ate_ ? errorChart(run_, *ate_) : std::string()) +
-               section("Tracked landmarks", landmarkChart(run_)) +
-               section("Time by stage", stages()) + section("Keyframes", keyframes(), "wide");
+               section("Inliers", landmarkChart(run_)) +
+               section("CPU time by stage", stages(), "wide") +
+               section("Keyframes", keyframes(), "wide") +
+               section("About this run", aboutTable(run_), "wide");
+    }
+
+    std::string perspective() const {
+        return figure(embeddedImage("image/jpeg", run_.map3d_jpg, "map in perspective"),
+                      "Points below the ceiling; trajectory orange, keyframes blue, loops red. "
+                      "The scale bar holds for the middle of the map.");
     }
 
     std::string mapPicture() const {
         return figure(embeddedImage("image/png", run_.map_png, "map from above"),
-                      "Points below the ceiling; path orange, keyframes blue, loops red.");
+                      "Points below the ceiling; trajectory orange, keyframes blue, loops red.",
+                      "plan");
     }
 
     std::string grid() const {
@@ -141,13 +149,15 @@ class Page {
 
     std::string stages() const {
         return stageTable(run_) +
-               note(formatted("CPU ms a call, and shares of the whole. Dense maps: %.1f s.",
+               note(formatted("CPU time per call in ms, and share of the total. Dense maps took "
+                              "another %.1f s.",
                               run_.maps_wall_s));
     }
 
     std::string keyframes() const {
-        return figure(embeddedImage("image/jpeg", run_.keyframes_jpg, "keyframes"),
-                      "Some keyframes: number and time since the first frame.");
+        return figure(
+            embeddedImage("image/jpeg", run_.keyframes_jpg, "keyframes"),
+            "A selection of keyframes, with their numbers and the time since the first frame.");
     }
 
     const RunRecord& run_;

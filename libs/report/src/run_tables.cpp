@@ -1,6 +1,7 @@
 #include "run_tables.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/evaluation/statistics.h"
@@ -28,26 +29,66 @@ std::string loopRow(const RunRecord& run, const LoopRecord& loop, bool is_false)
         return run.keyframes[static_cast<std::size_t>(keyframe)].stamp_s - run.start_s;
     };
     const std::string error =
-        loop.error_m ? formatted("%.1f mm", 1e3 * *loop.error_m) : std::string("not known");
+        loop.error_m ? figureText(1e3 * *loop.error_m) + " mm" : std::string("not known");
     return formatted(
         "<tr%s><td>%d and %d</td><td>%.1f s and %.1f s</td><td>%d</td><td>%s</td></tr>\n",
         is_false ? " class=\"false\"" : "", loop.from, loop.to, seconds(loop.from),
         seconds(loop.to), loop.inliers, (error + (is_false ? ", false" : "")).c_str());
 }
 
+/** A line of the list. \param html value */
+std::string fact(const char* name, const std::string& html) {
+    if (html.empty()) return {};
+    return std::string("<dt>") + name + "</dt><dd>" + html + "</dd>\n";
+}
+
+std::string code(const std::string& text) {
+    return text.empty() ? text : "<code>" + htmlEscaped(text) + "</code>";
+}
+
+std::string intrinsicsText(const Camera& camera) {
+    std::string text = formatted("fx %.2f, fy %.2f, cx %.2f, cy %.2f px", camera.fx, camera.fy,
+                                 camera.cx, camera.cy);
+    if (!camera.hasDistortion()) return text + "; no lens distortion";
+    const auto& d = camera.distortion;
+    return text +
+           formatted("; k1 %.4g, k2 %.4g, p1 %.4g, p2 %.4g, k3 %.4g", d[0], d[1], d[2], d[3], d[4]);
+}
+
 }  // namespace
+
+std::string figureText(double value) {
+    const double size = std::abs(value);
+    if (size >= 99.95) return formatted("%.0f", value);
+    return formatted(size >= 0.995 ? "%.1f" : "%.2f", value);
+}
+
+std::string aboutTable(const RunRecord& run) {
+    std::string html = fact("recording", code(run.rawlog)) +
+                       fact("command", code(run.origin.command)) +
+                       fact("date", htmlEscaped(run.origin.date)) +
+                       fact("version", "rgbd-slam " + htmlEscaped(run.version)) +
+                       fact("settings", "config.ini, hash " + code(run.config_hash));
+    if (const auto& camera = run.origin.camera) {
+        html += fact("camera",
+                     formatted("%d x %d px, pinhole%s", camera->width, camera->height,
+                               camera->hasDistortion() ? " with Brown-Conrady distortion" : ""));
+        html += fact("intrinsics", intrinsicsText(*camera));
+    }
+    return "<dl class=\"facts\">\n" + html + "</dl>\n";
+}
 
 std::string loopTable(const RunRecord& run) {
     if (run.loops.empty()) return {};
     auto loops = worstFirst(run.loops);
     loops.resize(std::min(loops.size(), most_loops));
     std::string html =
-        "<table><tr><th>keyframes</th><th>seen at</th><th>landmarks that agree</th>"
-        "<th>distance to the truth</th></tr>\n";
+        "<div class=\"scroll\"><table><tr><th>keyframes</th><th>seen at</th><th>inliers</th>"
+        "<th>error</th></tr>\n";
     for (std::size_t i = 0; i < loops.size(); ++i) {
         html += loopRow(run, loops[i], i < run.false_loops.value_or(0));
     }
-    return html + "</table>";
+    return html + "</table></div>";
 }
 
 std::string loopSummary(const RunRecord& run) {
@@ -58,13 +99,15 @@ std::string loopSummary(const RunRecord& run) {
     if (errors_mm.empty()) return "Without ground truth the loops cannot be checked.";
     const Statistics errors = statisticsOf(errors_mm);
     std::string text = formatted(
-        "A loop measures where one keyframe is from the other. Against the truth, known for %zu of "
-        "%zu, it is off by %.1f mm in the median and %.1f mm at most; %s.",
-        errors_mm.size(), run.loops.size(), errors.median, errors.max,
-        run.false_loops.value_or(0) == 0 ? "none is false"
-                                         : "those marked false join places that are not the same");
+        "The error is that of the measured position of one keyframe relative to the other. "
+        "Compared with ground truth (known for %zu of %zu loops) it is %s mm in the median and %s "
+        "mm at most; %s.",
+        errors_mm.size(), run.loops.size(), figureText(errors.median).c_str(),
+        figureText(errors.max).c_str(),
+        run.false_loops.value_or(0) == 0 ? "no loop is false"
+                                         : "those marked false join different places");
     if (run.loops.size() > most_loops)
-        text += formatted(" The table shows the worst %zu.", most_loops);
+        text += formatted(" The table lists the %zu worst.", most_loops);
     return text;
 }
 
@@ -75,17 +118,18 @@ std::string stageTable(const RunRecord& run) {
         most_ms = std::max(most_ms, totalMs(stage));
     }
     std::string html =
-        "<table><tr><th>stage</th><th>calls</th><th>mean</th><th>median</th><th>95 %</th>"
-        "<th>max</th><th>share</th><th></th></tr>\n";
+        "<div class=\"scroll\"><table><tr><th>stage</th><th>calls</th><th>mean</th>"
+        "<th>median</th><th>95 %</th><th>max</th><th>share</th><th class=\"bar\"></th></tr>\n";
     for (const StageRecord& stage : run.stages) {
-        html += "<tr><td>" + htmlEscaped(stage.name) + "</td>" +
-                formatted(
-                    "<td>%zu</td><td>%.2f</td><td>%.2f</td><td>%.2f</td><td>%.1f</td>"
-                    "<td>%.0f %%</td><td class=\"bar\"><i style=\"width:%.1f%%\"></i></td></tr>\n",
-                    stage.calls, stage.mean_ms, stage.median_ms, stage.p95_ms, stage.max_ms,
-                    100 * totalMs(stage) / all_ms, 100 * totalMs(stage) / most_ms);
+        html +=
+            "<tr><td>" + htmlEscaped(stage.name) + "</td>" + formatted("<td>%zu</td>", stage.calls);
+        for (const double ms : {stage.mean_ms, stage.median_ms, stage.p95_ms, stage.max_ms})
+            html += "<td>" + figureText(ms) + "</td>";
+        html += formatted(
+            "<td>%.0f %%</td><td class=\"bar\"><i style=\"width:%.1f%%\"></i></td></tr>\n",
+            100 * totalMs(stage) / all_ms, 100 * totalMs(stage) / most_ms);
     }
-    return html + "</table>";
+    return html + "</table></div>";
 }
 
 }  // namespace rgbd_graphslam

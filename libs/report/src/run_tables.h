@@ -6,6 +6,12 @@
 
 namespace rgbd_graphslam {
 
+/** A figure without decimals that say nothing: 0.42, 7.3, 118. */
+std::string figureText(double value);
+
+/** Recording, command, date, settings and camera. */
+std::string aboutTable(const RunRecord& run);
+
 /** The loops with the largest errors, or the first ones where the truth is not known. */
 std::string loopTable(const RunRecord& run);
 

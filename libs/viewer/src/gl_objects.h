@@ -6,6 +6,7 @@
 #include <map>
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <vector>
 
 #include "rgbd_graphslam/viewer/vertex.h"
 
@@ -68,6 +69,10 @@ class ShaderProgram {
     void set(const char* name, const Eigen::Vector2f& v) { glUniform2f(at(name), v.x(), v.y()); }
     void set(const char* name, const Eigen::Matrix4f& m) {
         glUniformMatrix4fv(at(name), 1, GL_FALSE, m.data());
+    }
+    /** \param colors red, green and blue of each, 0 to 1 */
+    void setColors(const char* name, const std::vector<float>& colors) {
+        glUniform3fv(at(name), static_cast<GLsizei>(colors.size() / 3), colors.data());
     }
 
   private:

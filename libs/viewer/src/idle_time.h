@@ -9,8 +9,8 @@ class IdleTime {
   public:
     using TimePoint = std::chrono::steady_clock::time_point;
 
-    /** \return how many processors had nothing to do since the last call, on average; at first since
-     *  the machine began; 0 where the system does not tell */
+    /** \return how many processors had nothing to do since the last call, on average; at first
+     * since the machine began; 0 where the system does not tell */
     double processors(TimePoint now);
 
   private:

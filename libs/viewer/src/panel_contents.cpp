@@ -68,15 +68,15 @@ void showRunPlots(PlotPanel& panel, const RunScene& scene) {
     }
     panel.landmarks().show(landmarks);
     panel.times().show(scene.run().frame_times_ms);
-    panel.errors().name(scene.errors().empty() ? "error: no truth" : "error", " cm");
+    panel.errors().name(scene.errors().empty() ? "error: no ground truth" : "error", " cm");
     panel.errors().show(errorsCm(scene.errors()));
 }
 
 std::string summaryOf(const RunScene& scene, std::size_t points) {
     const RunData& run = scene.run();
     const std::string map =
-        points == 0 ? "no map of points" : formatted("%.2f million points", 1e-6 * points);
-    return formatted("%s, keyframes: %zu, loops: %zu; ? lists keys and mouse", map.c_str(),
+        points == 0 ? "no point cloud" : formatted("%.2f million points", 1e-6 * points);
+    return formatted("%s, %zu keyframes, %zu loops; press ? for help", map.c_str(),
                      run.keyframes.size(), run.loops.size());
 }
 

@@ -9,11 +9,6 @@ constexpr int margin_px = 8;
 /** However small the window is, the scene gets this share of it. */
 constexpr double least_free = 0.3;
 
-/** What a panel takes of both sides, so that the centre stays the centre. */
-double covered(const nanogui::Widget& panel, int extent_px) {
-    return panel.visible() ? 2. * (extent_px + margin_px) : 0;
-}
-
 }  // namespace
 
 PanelSet::PanelSet(nanogui::Screen& window, ViewerSettings& settings,
@@ -26,7 +21,8 @@ PanelSet::PanelSet(nanogui::Screen& window, ViewerSettings& settings,
       plots_(new PlotPanel(&window)),
       time_(new TimePanel(&window)),
       help_(new HelpPanel(&window, shortcuts)),
-      files_(new ExportPanel(&window)) {
+      files_(new ExportPanel(&window)),
+      hint_(new HintPanel(&window)) {
     help_->setVisible(false);
     files_->setVisible(false);
 }
@@ -72,12 +68,43 @@ std::vector<nanogui::Widget*> PanelSet::liveWidgets() {
             &plots_->times(),    &plots_->errors(),   &time_->news()};
 }
 
-Eigen::Vector2d PanelSet::freeShare() const {
-    const double x =
-        std::max(covered(*view_, view_->width()), covered(*pictures_, pictures_->width()));
-    const double y = covered(*time_, time_->height());
-    return {std::max(least_free, 1 - x / window_.width()),
-            std::max(least_free, 1 - y / window_.height())};
+cv::Rect PanelSet::freeArea() const {
+    const int width = window_.width(), height = window_.height();
+    int left = 0, right = width, bottom = height;
+    for (const nanogui::Widget* panel : std::initializer_list<nanogui::Widget*>{view_, plots_}) {
+        if (panel->visible())
+            left = std::max(left, panel->position().x() + panel->width() + margin_px);
+    }
+    if (pictures_->visible()) right = pictures_->position().x() - margin_px;
+    if (time_->visible()) bottom = time_->position().y() - margin_px;
+    if (right - left < least_free * width) left = 0, right = width;
+    if (bottom < least_free * height) bottom = height;
+    return {left, 0, right - left, bottom};
+}
+
+bool PanelSet::closeMiddle() {
+    const bool was_open = help_->visible() || files_->visible();
+    help_->setVisible(false);
+    files_->setVisible(false);
+    return was_open;
+}
+
+bool PanelSet::hint(const std::string& text, const Eigen::Vector2i& mouse) {
+    if (!hint_->show(text)) return false;
+    if (!hint_->visible()) return true;
+    constexpr int below_px = 20;
+    window_.performLayout();
+    const int x = std::min(mouse.x(), window_.width() - hint_->width() - margin_px);
+    const bool fits = mouse.y() + below_px + hint_->height() < window_.height();
+    const int y = fits ? mouse.y() + below_px : mouse.y() - hint_->height() - margin_px;
+    hint_->setPosition({std::max(0, x), std::max(0, y)});
+    window_.moveWindowToFront(hint_);
+    return true;
+}
+
+void PanelSet::offer(const RunContents& contents) {
+    view_->offer(contents);
+    files_->offer(contents);
 }
 
 void PanelSet::store(ViewerSettings& settings) const {

@@ -2,6 +2,8 @@
 #pragma once
 #include <Eigen/Core>
 #include <functional>
+#include <opencv2/core/types.hpp>
+#include <string>
 #include <vector>
 
 #include "panels.h"
@@ -22,12 +24,18 @@ class PanelSet {
     void toggle();
     /** Opens or closes one of those that stand in the middle. */
     void toggle(nanogui::Window& panel);
-    /** Whether one of these is open. */
-    bool middleIsOpen() const { return help_->visible() || files_->visible(); }
+    /** Closes those. \return whether one was open */
+    bool closeMiddle();
+    /** Whether a panel is open that may lie over others. */
+    bool anyOverOthers() const { return help_->visible() || files_->visible() || hint_->visible(); }
+    /** Shows a tooltip beside the mouse, or none. \return whether something changed */
+    bool hint(const std::string& text, const Eigen::Vector2i& mouse);
+    /** Greys out what a run cannot show. */
+    void offer(const RunContents& contents);
     /** Those that show something else with every frame of a running SLAM. */
     std::vector<nanogui::Widget*> liveWidgets();
-    /** Share of the window's width and height that the panels leave free round its centre. */
-    Eigen::Vector2d freeShare() const;
+    /** The part of the window between the panels, in its own units. */
+    cv::Rect freeArea() const;
     /** Which are to be open. */
     void store(ViewerSettings& settings) const;
 
@@ -53,6 +61,7 @@ class PanelSet {
     TimePanel* time_;
     HelpPanel* help_;
     ExportPanel* files_;
+    HintPanel* hint_;
 };
 
 }  // namespace rgbd_graphslam

@@ -11,9 +11,9 @@
 namespace rgbd_graphslam {
 namespace {
 
-constexpr int picture_width_px = 288, picture_height_px = 216, plot_width_px = 232,
-              plot_height_px = 76, line_px = 18, switch_width_px = 155, switch_height_px = 20,
-              swatch_width_px = 18, swatch_height_px = 3;
+/** All panels at the sides are as wide as this and their margins. */
+constexpr int content_px = 248, picture_height_px = 186, plot_height_px = 76;
+constexpr int line_px = 18, switch_height_px = 20, swatch_width_px = 18, swatch_height_px = 3;
 constexpr float largest_point_px = 10;
 
 nanogui::Widget* column(nanogui::Widget* parent, int spacing_px) {
@@ -34,66 +34,67 @@ void addLabel(nanogui::Widget* parent, const char* text, const Rgba& color) {
     label->setColor(nanogui::Color(color[0], color[1], color[2], color[3]));
 }
 
+std::string withKey(const std::string& about, const std::string& key) {
+    return key.empty() ? about : about + " Key: " + key;
+}
+
+/** For windows that stand in the way of others. */
+void addCloseButton(nanogui::Window* window, const std::function<void()>& close) {
+    auto* button = new nanogui::Button(window->buttonPanel(), "", ENTYPO_ICON_CROSS);
+    button->setCallback(close);
+    button->setTooltip("Close. Key: Esc");
+}
+
 }  // namespace
 
 ViewPanel::ViewPanel(nanogui::Widget* screen, ViewerSettings& settings,
                      std::function<void()> changed)
     : nanogui::Window(screen, "View"), settings_(settings), changed_(std::move(changed)) {
     column(this, 1);
-    addSwitch(this, "points", &ViewerSettings::points);
-    addSwitch(this, "mesh", &ViewerSettings::mesh);
-    addSwitch(this, "octree: occupied", &ViewerSettings::octree);
-    addSwitch(this, "octree: free", &ViewerSettings::free_space);
-    addSwitch(this, "2-D grid", &ViewerSettings::grid);
-    addSwitch("trajectory", &ViewerSettings::trajectory, trajectory_color);
-    addSwitch("true trajectory", &ViewerSettings::truth, truth_color);
-    errors_ = addSwitch("errors", &ViewerSettings::errors, error_color);
-    addSwitch("keyframes", &ViewerSettings::keyframes, keyframe_color);
-    addSwitch("covisibility", &ViewerSettings::covisibility, covisibility_color);
-    addSwitch("loops", &ViewerSettings::loops, loop_color);
-    addSwitch("without loops", &ViewerSettings::before_loops, before_color);
-    addSwitch(this, "floor lines", &ViewerSettings::floor);
-    addSwitch(this, "cut the ceiling off", &ViewerSettings::cut_ceiling);
-    by_height_ = new nanogui::CheckBox(this, "colours by height", [this](bool on) {
+    for (const ViewSwitch& entry : viewSwitches()) addSwitch(entry);
+    by_height_ = new nanogui::CheckBox(this, "colour by height", [this](bool on) {
         settings_.colors = on ? "height" : "camera";
         changed_();
     });
+    by_height_->setTooltip("Points, mesh and octree in colours of their height. Key: H");
     new nanogui::Label(this, "point size");
     point_size_ = new nanogui::Slider(this);
-    point_size_->setFixedWidth(plot_width_px - 90);
+    point_size_->setFixedWidth(content_px);
     point_size_->setRange({1, largest_point_px});
     point_size_->setCallback([this](float px) {
         settings_.point_size_px = px;
         changed_();
     });
+    offer({});
     refresh();
 }
 
-nanogui::CheckBox* ViewPanel::addSwitch(nanogui::Widget* parent, const char* caption,
-                                        bool ViewerSettings::*field) {
-    auto* box = new nanogui::CheckBox(parent, caption, [this, field](bool on) {
-        settings_.*field = on;
+void ViewPanel::addSwitch(const ViewSwitch& entry) {
+    nanogui::Widget* line = row(this, 0);
+    auto* box = new nanogui::CheckBox(line, entry.name, [this, &entry](bool on) {
+        settings_.*entry.field = on;
         changed_();
     });
-    switches_.emplace_back(box, field);
-    return box;
+    box->setFixedSize({content_px - swatch_width_px, switch_height_px});
+    if (entry.color) new ColorWidget(line, {swatch_width_px, swatch_height_px}, *entry.color);
+    switches_.emplace_back(box, &entry);
+    if (entry.field == &ViewerSettings::errors) errors_ = box;
 }
 
-nanogui::CheckBox* ViewPanel::addSwitch(const char* caption, bool ViewerSettings::*field,
-                                        const Rgba& color) {
-    nanogui::Widget* line = row(this, 0);
-    nanogui::CheckBox* box = addSwitch(line, caption, field);
-    box->setFixedSize({switch_width_px, switch_height_px});
-    new ColorWidget(line, {swatch_width_px, swatch_height_px}, color);
-    return box;
+void ViewPanel::offer(const RunContents& contents) {
+    for (const auto& [box, entry] : switches_) {
+        const std::string why = whyNothingToShow(entry->field, contents);
+        box->setEnabled(why.empty());
+        box->setTooltip(!why.empty() ? why : withKey(entry->about, entry->key));
+    }
 }
 
 void ViewPanel::nameErrors(int scale) {
-    errors_->setCaption(scale > 1 ? formatted("errors, %d x longer", scale) : "errors");
+    errors_->setCaption(scale > 1 ? formatted("errors, magnified %d x", scale) : "errors");
 }
 
 void ViewPanel::refresh() {
-    for (const auto& [box, field] : switches_) box->setChecked(settings_.*field);
+    for (const auto& [box, entry] : switches_) box->setChecked(settings_.*entry->field);
     by_height_->setChecked(settings_.colors == "height");
     point_size_->setValue(static_cast<float>(settings_.point_size_px));
 }
@@ -103,8 +104,8 @@ PicturePanel::PicturePanel(nanogui::Widget* screen, ViewerSettings& settings,
     : nanogui::Window(screen, "Images") {
     column(this, 4);
     label_ = new nanogui::Label(this, " ");
-    label_->setFixedSize({picture_width_px, line_px});
-    color_ = new PictureWidget(this, {picture_width_px, picture_height_px});
+    label_->setFixedSize({content_px, line_px});
+    color_ = new PictureWidget(this, {content_px, picture_height_px});
     color_->showMarks(settings.features);
     features_ = row(this, 10);
     auto* features = new nanogui::CheckBox(
@@ -117,9 +118,9 @@ PicturePanel::PicturePanel(nanogui::Widget* screen, ViewerSettings& settings,
     addLabel(features_, "tracked", tracked_color);
     addLabel(features_, "new", new_color);
     addLabel(features_, "lost", lost_color);
-    depth_ = new PictureWidget(this, {picture_width_px, picture_height_px});
+    depth_ = new PictureWidget(this, {content_px, picture_height_px});
     const std::string farthest = std::to_string(cvRound(farthest_painted_m));
-    new nanogui::Label(this, "depth: red near, blue " + farthest + " m, black none");
+    new nanogui::Label(this, "red near, blue " + farthest + " m, black no depth");
 }
 
 void PicturePanel::setLive(bool live) {
@@ -129,13 +130,13 @@ void PicturePanel::setLive(bool live) {
 
 PlotPanel::PlotPanel(nanogui::Widget* screen) : nanogui::Window(screen, "Plots") {
     column(this, 4);
-    landmarks_ = addPlot("tracked landmarks", "");
+    landmarks_ = addPlot("inliers", "");
     times_ = addPlot("frame time", " ms");
     errors_ = addPlot("error", " cm");
 }
 
 PlotWidget* PlotPanel::addPlot(const char* title, const char* unit) {
-    auto* plot = new PlotWidget(this, {plot_width_px, plot_height_px});
+    auto* plot = new PlotWidget(this, {content_px, plot_height_px});
     plot->name(title, unit);
     return plot;
 }
@@ -149,6 +150,7 @@ TimePanel::TimePanel(nanogui::Widget* screen) : nanogui::Window(screen, "") {
     row_ = row(this, 10);
     play_ = new nanogui::Button(row_, "", ENTYPO_ICON_CONTROLLER_PLAY);
     play_->setFlags(nanogui::Button::ToggleButton);
+    play_->setTooltip("Replays the run. Key: Space");
     play_->setChangeCallback([this](bool play) { on_play(play); });
     slider_ = new nanogui::Slider(row_);
     slider_->setCallback([this](float share) { on_move(share); });
@@ -181,6 +183,7 @@ HelpPanel::HelpPanel(nanogui::Widget* screen, const std::vector<Shortcut>& short
         new nanogui::Label(this, name, "sans-bold");
         new nanogui::Label(this, meaning);
     };
+    addCloseButton(this, [this] { on_close(); });
     line("left drag", "turn");
     line("right drag", "move");
     line("wheel", "zoom to the pointer");
@@ -191,17 +194,43 @@ HelpPanel::HelpPanel(nanogui::Widget* screen, const std::vector<Shortcut>& short
 
 ExportPanel::ExportPanel(nanogui::Widget* screen) : nanogui::Window(screen, "Write the map") {
     column(this, 6);
-    new nanogui::Label(this, "What is shown: of a replay the map so far,");
-    new nanogui::Label(this, "without the ceiling where it is cut off.");
-    const auto add = [this](const char* caption, ExportFormat format) {
-        auto* button = new nanogui::Button(this, caption);
-        button->setCallback([this, format] { on_export(format); });
-    };
-    add("points: PLY", ExportFormat::Ply);
-    add("points: PCD", ExportFormat::Pcd);
-    add("mesh: PLY", ExportFormat::Mesh);
-    add("octree with colours: OT", ExportFormat::ColorOctree);
-    add("octree, small: BT", ExportFormat::BinaryOctree);
+    addCloseButton(this, [this] { on_close(); });
+    new nanogui::Label(this, "Writes the map as it is shown: without a ceiling");
+    new nanogui::Label(this, "that is hidden; in a replay, the map so far.");
+    using S = ViewerSettings;
+    add("points as PLY", ExportFormat::Ply, &S::points);
+    add("points as PCD", ExportFormat::Pcd, &S::points);
+    add("mesh as PLY", ExportFormat::Mesh, &S::mesh);
+    add("octree with colours as OT", ExportFormat::ColorOctree, &S::octree);
+    add("octree, small, as BT", ExportFormat::BinaryOctree, &S::octree);
+}
+
+void ExportPanel::add(const char* caption, ExportFormat format, bool ViewerSettings::*needed) {
+    auto* button = new nanogui::Button(this, caption);
+    button->setCallback([this, format] { on_export(format); });
+    buttons_.emplace_back(button, needed);
+}
+
+void ExportPanel::offer(const RunContents& contents) {
+    for (const auto& [button, needed] : buttons_) {
+        const std::string why = whyNothingToShow(needed, contents);
+        button->setEnabled(why.empty());
+        button->setTooltip(why);
+    }
+}
+
+HintPanel::HintPanel(nanogui::Widget* screen) : nanogui::Window(screen, "") {
+    setLayout(new nanogui::BoxLayout(nanogui::Orientation::Vertical, nanogui::Alignment::Fill, 7));
+    label_ = new nanogui::Label(this, " ");
+    label_->setFixedWidth(content_px);
+    setVisible(false);
+}
+
+bool HintPanel::show(const std::string& text) {
+    if (text == (visible() ? label_->caption() : std::string())) return false;
+    setVisible(!text.empty());
+    if (!text.empty()) label_->setCaption(text);
+    return true;
 }
 
 }  // namespace rgbd_graphslam

@@ -4,9 +4,11 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rgbd_graphslam/viewer/map_export.h"
+#include "rgbd_graphslam/viewer/view_switches.h"
 #include "rgbd_graphslam/viewer/viewer_settings.h"
 #include "widgets.h"
 
@@ -25,21 +27,19 @@ class ViewPanel : public nanogui::Window {
   public:
     ViewPanel(nanogui::Widget* screen, ViewerSettings& settings, std::function<void()> changed);
 
+    /** Greys out what a run cannot show; tooltips tell why. */
+    void offer(const RunContents& contents);
     /** Shows settings that were changed elsewhere. */
     void refresh();
     /** \param scale how many times longer than they are errors are drawn */
     void nameErrors(int scale);
 
   private:
-    nanogui::CheckBox* addSwitch(nanogui::Widget* parent, const char* caption,
-                                 bool ViewerSettings::*field);
-    /** Beside it what colour the lines have. */
-    nanogui::CheckBox* addSwitch(const char* caption, bool ViewerSettings::*field,
-                                 const Rgba& color);
+    void addSwitch(const ViewSwitch& entry);
 
     ViewerSettings& settings_;
     std::function<void()> changed_;
-    std::vector<std::pair<nanogui::CheckBox*, bool ViewerSettings::*>> switches_;
+    std::vector<std::pair<nanogui::CheckBox*, const ViewSwitch*>> switches_;
     nanogui::CheckBox *errors_ = nullptr, *by_height_ = nullptr;
     nanogui::Slider* point_size_ = nullptr;
 };
@@ -105,6 +105,8 @@ class TimePanel : public nanogui::Window {
 class HelpPanel : public nanogui::Window {
   public:
     HelpPanel(nanogui::Widget* screen, const std::vector<Shortcut>& shortcuts);
+
+    std::function<void()> on_close = [] {};
 };
 
 /** Which file to write the map to. */
@@ -113,6 +115,27 @@ class ExportPanel : public nanogui::Window {
     explicit ExportPanel(nanogui::Widget* screen);
 
     std::function<void(ExportFormat format)> on_export = [](ExportFormat) {};
+    std::function<void()> on_close = [] {};
+    /** Greys out what a run does not have; tooltips tell why. */
+    void offer(const RunContents& contents);
+
+  private:
+    void add(const char* caption, ExportFormat format, bool ViewerSettings::*needed);
+
+    std::vector<std::pair<nanogui::Button*, bool ViewerSettings::*>> buttons_;
+};
+
+/** The tooltip of the widget under the mouse. nanogui's own would lie outside of all panels, where
+ *  only the scene is copied to the window. */
+class HintPanel : public nanogui::Window {
+  public:
+    explicit HintPanel(nanogui::Widget* screen);
+
+    /** \param text nothing hides it \return whether something changed */
+    bool show(const std::string& text);
+
+  private:
+    nanogui::Label* label_;
 };
 
 }  // namespace rgbd_graphslam

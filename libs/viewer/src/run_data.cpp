@@ -131,6 +131,7 @@ void readNotes(const fs::path& folder, RunData& run) {
 void readPoses(const fs::path& folder, RunData& run) {
     MapInputs inputs = readInputs(folder.string());
     run.rawlog = std::move(inputs.rawlog);
+    run.up_is_guessed = upIsGuessed(folder.string());
     run.trajectory = std::move(inputs.trajectory);
     run.unplaced_s = std::move(inputs.unplaced_s);
     run.earlier_keyframes = sessionLengths(inputs);

@@ -4,23 +4,16 @@
 #include <utility>
 
 #include "rgbd_graphslam/core/free_memory.h"
+#include "rgbd_graphslam/mapping/framing.h"
 #include "rgbd_graphslam/viewer/keyframe_view.h"
 #include "rgbd_graphslam/viewer/scene_parts.h"
-#include "scene_colors.h"
 
 namespace rgbd_graphslam {
 namespace {
 
-constexpr double ceiling_margin_m = 0.1;
 constexpr std::size_t most_moving_triangles = 40000;
 /** Above the floor, and above the first camera while the floor is not known. */
-constexpr double lowest_ceiling_m = 2, lowest_live_ceiling_m = 0.6;
-
-double highestOf(const Trajectory& poses) {
-    double highest_m = -1e9;
-    for (const StampedPose& pose : poses) highest_m = std::max(highest_m, pose.T_world_cam.t.z());
-    return highest_m;
-}
+constexpr double lowest_ceiling_m = 2, lowest_live_ceiling_m = 0.6, no_ceiling_m = 1e9;
 
 /** Two vertices for every line up to a stamp. */
 template <class List>
@@ -36,12 +29,18 @@ std::size_t verticesUntil(const List& list, std::optional<double> stamp_s) {
 void RunScene::show(RunData run) {
     run_ = std::move(run);
     live_revision_.reset();
-    lowest_ceiling_m_ = lowest_ceiling_m;
-    box_ = boxOf(run_);
+    lowest_ceiling_m_ = run_.up_is_guessed ? no_ceiling_m : lowest_ceiling_m;
+    Framing framing = framingOf(run_.points, run_.keyframes, run_.trajectory,
+                                ceilingCut(run_.trajectory, lowest_ceiling_m_));
+    box_ = framing.box;
+    framed_ = std::move(framing.points);
+    contents_ = contentsOf(run_);
     pictures_.assign(run_.keyframes.size(), {});
     renderer_.clearKeyframePoints();
+    floor_.reset();
+    if (!box_.isEmpty()) floor_ = floorGrid(box_);
     renderer_.geometry().setLines(Part::Floor,
-                                  box_.isEmpty() ? Vertices{} : floorLines(box_, floor_color));
+                                  floor_ ? floorLines(*floor_, floor_color) : Vertices{});
     showPoses();
     showTruth();
     renderer_.geometry().setTriangles(Part::Grid,
@@ -91,6 +90,7 @@ void RunScene::update(const LiveRun& live) {
     if (live_revision_ == live.revisions()) return extendPath(live.run());
     live_revision_ = live.revisions();
     run_ = live.run();
+    contents_ = liveContents();
     lowest_ceiling_m_ = lowest_live_ceiling_m;
     if (live.lastFrame()) camera_ = live.lastFrame()->camera;
     for (const StampedPose& pose : run_.trajectory) box_.extend(pose.T_world_cam.t);
@@ -126,18 +126,17 @@ void RunScene::showCloud(std::size_t keyframe, const Vertices& points) {
 
 void RunScene::setCamera(const Camera& camera) {
     camera_ = camera;
-    renderer_.geometry().setLines(
-        Part::Keyframes, frustumLines(run_.keyframes, camera, frustumDepth(), keyframe_color));
+    const double depth_m = frustumDepth(run_.keyframes);
+    drawn_keyframes_ = sparseKeyframes(run_.keyframes, depth_m);
+    Trajectory drawn;
+    for (const std::size_t k : drawn_keyframes_) drawn.push_back(run_.keyframes[k]);
+    renderer_.geometry().setLines(Part::Keyframes,
+                                  frustumLines(drawn, camera, depth_m, keyframe_color));
 }
 
-/** Frustums are as large as keyframes are apart, so that they neither vanish nor hide the map. */
-double RunScene::frustumDepth() const {
-    if (run_.keyframes.size() < 2) return 0.1;
-    double path_m = 0;
-    for (std::size_t k = 1; k < run_.keyframes.size(); ++k) {
-        path_m += (run_.keyframes[k].T_world_cam.t - run_.keyframes[k - 1].T_world_cam.t).norm();
-    }
-    return std::clamp(path_m / static_cast<double>(run_.keyframes.size() - 1), 0.06, 0.2);
+std::size_t RunScene::keyframeVertices(std::size_t keyframes) const {
+    const auto end = std::lower_bound(drawn_keyframes_.begin(), drawn_keyframes_.end(), keyframes);
+    return vertices_a_frustum * static_cast<std::size_t>(end - drawn_keyframes_.begin());
 }
 
 void RunScene::add(RecordingLoader::News news) {
@@ -149,21 +148,30 @@ void RunScene::add(RecordingLoader::News news) {
     }
 }
 
+void RunScene::frame(OrbitCamera& camera, const Eigen::Vector2i& size_px,
+                     const Eigen::Vector2d& share) const {
+    if (renderer_.points() > 0 && !framed_.empty()) {
+        camera.frame(framed_, size_px, share);
+    } else if (!box_.isEmpty()) {  // grown by the clouds of keyframes
+        camera.frame(box_, size_px, share);
+    }
+}
+
 void RunScene::markNow(std::optional<double> stamp_s) {
     if (stamp_s == now_s_) return;
     now_s_ = stamp_s;
     const auto pose = stamp_s ? poseNear(run_.trajectory, *stamp_s) : std::nullopt;
-    renderer_.geometry().setLines(
-        Part::NowCamera,
-        pose ? frustumLines({{*stamp_s, *pose}}, camera_, 2 * frustumDepth(), now_color)
-             : Vertices{});
+    renderer_.geometry().setLines(Part::NowCamera,
+                                  pose ? frustumLines({{*stamp_s, *pose}}, camera_,
+                                                      2 * frustumDepth(run_.keyframes), now_color)
+                                       : Vertices{});
 }
 
 void RunScene::select(std::optional<std::size_t> keyframe) {
     Vertices lines;
     if (keyframe) {
-        lines =
-            frustumLines({run_.keyframes[*keyframe]}, camera_, 2 * frustumDepth(), selection_color);
+        lines = frustumLines({run_.keyframes[*keyframe]}, camera_, 2 * frustumDepth(run_.keyframes),
+                             selection_color);
     }
     renderer_.geometry().setLines(Part::Selection, lines);
 }
@@ -204,7 +212,7 @@ SceneView RunScene::viewAt(std::optional<double> stamp_s, const ViewerSettings& 
     put(Part::Octree, settings.octree, whole);
     put(Part::FreeSpace, settings.free_space, whole);
     put(Part::Path, settings.trajectory, 2 * std::max<std::size_t>(now.poses, 1) - 2);
-    put(Part::Keyframes, settings.keyframes, vertices_a_frustum * now.keyframes);
+    put(Part::Keyframes, settings.keyframes, keyframeVertices(now.keyframes));
     put(Part::Covisibility, settings.covisibility, 2 * now.covisibility);
     put(Part::Loops, settings.loops, 2 * now.loops);
     put(Part::BeforeLoops, settings.before_loops, whole);
@@ -226,8 +234,7 @@ SceneView RunScene::viewAt(std::optional<double> stamp_s, const ViewerSettings& 
                                static_cast<float>(box_.max().z())};
     }
     if (settings.cut_ceiling) {
-        view.highest_m = static_cast<float>(
-            std::max(lowest_ceiling_m_, highestOf(run_.trajectory) + ceiling_margin_m));
+        view.highest_m = static_cast<float>(ceilingCut(run_.trajectory, lowest_ceiling_m_));
     }
     view.least_point_px = static_cast<float>(settings.point_size_px);
     return view;

@@ -3,11 +3,13 @@
 #include <optional>
 #include <vector>
 
+#include "rgbd_graphslam/mapping/view_scale.h"
 #include "rgbd_graphslam/viewer/live_run.h"
 #include "rgbd_graphslam/viewer/recording_loader.h"
 #include "rgbd_graphslam/viewer/replay.h"
 #include "rgbd_graphslam/viewer/run_data.h"
 #include "rgbd_graphslam/viewer/true_errors.h"
+#include "rgbd_graphslam/viewer/view_switches.h"
 #include "rgbd_graphslam/viewer/viewer_settings.h"
 #include "scene_renderer.h"
 
@@ -43,19 +45,30 @@ class RunScene {
     /** \return nullptr while it is not read */
     const KeyframePicture* picture(std::size_t keyframe) const;
     Eigen::AlignedBox3d box() const { return box_; }
+    /** Turns a camera's view on most of the map. \param share as OrbitCamera::frame() takes it */
+    void frame(OrbitCamera& camera, const Eigen::Vector2i& size_px,
+               const Eigen::Vector2d& share) const;
+    /** Nothing without a map. */
+    const std::optional<FloorGrid>& floor() const { return floor_; }
+    const RunContents& contents() const { return contents_; }
 
   private:
     void showCloud(std::size_t keyframe, const Vertices& points);
     void showPoses();
     void showTruth();
     void extendPath(const RunData& longer);
-    double frustumDepth() const;
     void setCamera(const Camera& camera);
+    /** Of the first so many keyframes. */
+    std::size_t keyframeVertices(std::size_t keyframes) const;
 
     SceneRenderer& renderer_;
     RunData run_;
     std::optional<std::size_t> live_revision_;
+    RunContents contents_;
     Eigen::AlignedBox3d box_;
+    std::vector<Eigen::Vector3d> framed_;  // within the box; few where there is no fused map
+    std::optional<FloorGrid> floor_;
+    std::vector<std::size_t> drawn_keyframes_;  // rising
     Camera camera_;
     std::vector<TrueError> errors_;
     int error_scale_ = 1;

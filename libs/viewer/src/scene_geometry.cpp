@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "rgbd_graphslam/mapping/height_colors.h"
 #include "shaders.h"
 
 namespace rgbd_graphslam {
 namespace {
 
-constexpr float background[] = {236 / 255.f, 239 / 255.f, 243 / 255.f};
 constexpr float most_point_px = 12, free_alpha = 0.08f;
 /** How bright the octree's sides are: -x, +x, -y, +y, -z, +z. */
 constexpr float face_shades[] = {0.75f, 0.85f, 0.7f, 0.8f, 0.55f, 1.f};
@@ -36,8 +36,18 @@ void drawRanges(const std::vector<DrawRange>& ranges) {
 void clear() {
     glDepthMask(GL_TRUE);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    glClearColor(background[0], background[1], background[2], 1);
+    glClearColor(background_color[0] / 255.f, background_color[1] / 255.f,
+                 background_color[2] / 255.f, 1);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+/** For the shader. */
+std::vector<float> paletteValues() {
+    static_assert(height_palette_size == 32, "the shader's palette has as many colours");
+    std::vector<float> values;
+    for (const Rgba& color : heightPalette())
+        for (const int c : {0, 1, 2}) values.push_back(static_cast<float>(color[c]) / 255);
+    return values;
 }
 
 Eigen::Matrix4f clipFromWorld(const SceneView& view) {
@@ -48,7 +58,10 @@ Eigen::Matrix4f clipFromWorld(const SceneView& view) {
 
 SceneGeometry::SceneGeometry()
     : surface_(surface_vertex_shader, "", surface_fragment_shader),
-      line_(line_vertex_shader, line_geometry_shader, surface_fragment_shader) {}
+      line_(line_vertex_shader, line_geometry_shader, surface_fragment_shader) {
+    surface_.use();
+    surface_.setColors("palette", paletteValues());
+}
 
 void SceneGeometry::Faces::set(const std::array<Vertices, 6>& faces) {
     Vertices all;

@@ -11,8 +11,7 @@ namespace {
 
 constexpr float grid_height_m = 0.01f;
 constexpr float free_at_least = 0.6f, occupied_at_most = 0.4f;
-constexpr Rgba free_color = {250, 250, 250, 255}, occupied_color = {40, 44, 52, 255};
-constexpr double stray_share = 0.005;
+constexpr Rgba free_color = {214, 219, 226, 255}, occupied_color = {14, 16, 20, 255};
 
 void addLine(Vertices& lines, const Eigen::Vector3d& a, const Eigen::Vector3d& b,
              const Rgba& color) {
@@ -128,13 +127,6 @@ void addGridRun(Vertices& triangles, const GridMap& grid, int y, int x0, int x1,
             kind == CellKind::Free ? free_color : occupied_color);
 }
 
-float quantile(std::vector<float>& values, double share) {
-    const auto nth = values.begin() +
-                     static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-    std::nth_element(values.begin(), nth, values.end());
-    return *nth;
-}
-
 /** Triangles between the first vertices of cubes. */
 Triangles clustered(const PlyModel& mesh, float cell_m) {
     std::map<std::array<int, 3>, std::uint32_t> firsts;
@@ -190,12 +182,19 @@ Vertices pairLines(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>
     return lines;
 }
 
-Vertices floorLines(const Eigen::AlignedBox3d& box, const Rgba& color) {
-    const double x_min = std::floor(box.min().x()), x_max = std::ceil(box.max().x());
-    const double y_min = std::floor(box.min().y()), y_max = std::ceil(box.max().y());
+Vertices floorLines(const FloorGrid& grid, const Rgba& color) {
     Vertices lines;
-    for (double x = x_min; x <= x_max; ++x) addLine(lines, {x, y_min, 0}, {x, y_max, 0}, color);
-    for (double y = y_min; y <= y_max; ++y) addLine(lines, {x_min, y, 0}, {x_max, y, 0}, color);
+    const auto count = [&](double low, double high) {
+        return std::lround((high - low) / grid.step_m);
+    };
+    for (long i = 0; i <= count(grid.x_min_m, grid.x_max_m); ++i) {
+        const double x = grid.x_min_m + static_cast<double>(i) * grid.step_m;
+        addLine(lines, {x, grid.y_min_m, 0}, {x, grid.y_max_m, 0}, color);
+    }
+    for (long i = 0; i <= count(grid.y_min_m, grid.y_max_m); ++i) {
+        const double y = grid.y_min_m + static_cast<double>(i) * grid.step_m;
+        addLine(lines, {grid.x_min_m, y, 0}, {grid.x_max_m, y, 0}, color);
+    }
     return lines;
 }
 
@@ -253,21 +252,6 @@ Triangles fewerTriangles(const PlyModel& mesh, std::size_t most) {
     for (float cell_m = finest_m; fewer.size() > most; cell_m *= 1.5f)
         fewer = clustered(mesh, cell_m);
     return fewer;
-}
-
-Eigen::AlignedBox3d boxOf(const RunData& run) {
-    Eigen::AlignedBox3d box;
-    for (const StampedPose& pose : run.trajectory) box.extend(pose.T_world_cam.t);
-    if (run.points.empty()) return box;
-    Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = low;
-    std::vector<float> values(run.points.size());
-    for (int axis = 0; axis < 3; ++axis) {
-        std::transform(run.points.begin(), run.points.end(), values.begin(),
-                       [&](const MapPoint& point) { return point.position[axis]; });
-        low[axis] = quantile(values, stray_share);
-        high[axis] = quantile(values, 1 - stray_share);
-    }
-    return box.extend(low).extend(high);
 }
 
 }  // namespace rgbd_graphslam

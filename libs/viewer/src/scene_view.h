@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "rgbd_graphslam/viewer/orbit_camera.h"
+#include "rgbd_graphslam/mapping/orbit_camera.h"
 
 namespace rgbd_graphslam {
 

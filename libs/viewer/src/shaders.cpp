@@ -9,11 +9,13 @@ uniform mat4 clip_from_world;
 uniform float highest, shade, spacing_px, least_px, most_px;
 uniform vec2 height_range;
 uniform int by_height;
+uniform vec3 palette[32];
 out vec3 tint;
 vec3 heightColor(float z) {
-    float h = clamp((z - height_range.x) / (height_range.y - height_range.x), 0.0, 1.0);
-    float hue = 4.0 * (1.0 - h);  // blue, cyan, green, yellow, red
-    return clamp(vec3(2.0 - hue, 2.0 - abs(hue - 2.0), hue - 2.0), 0.08, 0.92);
+    float share = (z - height_range.x) / (height_range.y - height_range.x);
+    float place = 31.0 * clamp(share, 0.0, 1.0);
+    int low = int(min(place, 30.0));
+    return mix(palette[low], palette[low + 1], place - float(low));
 }
 void main() {
     gl_Position = clip_from_world * vec4(position, 1.0);

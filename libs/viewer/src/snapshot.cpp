@@ -2,22 +2,26 @@
 
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/opengl/CFBORender.h>
+#include <mrpt/opengl/CGridPlaneXY.h>
 #include <mrpt/opengl/CPointCloudColoured.h>
 #include <mrpt/opengl/CSetOfLines.h>
 #include <mrpt/opengl/CSetOfTriangles.h>
 #include <mrpt/serialization/CArchive.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 #include <vector>
 
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/mapping/framing.h"
 #include "rgbd_graphslam/mapping/map_scene.h"
+#include "rgbd_graphslam/mapping/orbit_camera.h"
+#include "rgbd_graphslam/mapping/picture_marks.h"
 #include "rgbd_graphslam/viewer/scene_parts.h"
 
 namespace rgbd_graphslam {
@@ -28,20 +32,53 @@ using mrpt::opengl::CPointCloudColoured;
 using mrpt::opengl::CSetOfLines;
 
 constexpr int oversampling = 2;  // rendered larger, then reduced, for smooth edges
-constexpr double field_of_view_deg = 40;
-constexpr float lowest_ceiling_m = 2, point_spacing_m = 0.012f;
-constexpr float outliers = 0.005f;
+constexpr float point_spacing_m = 0.012f;
+constexpr double degree = M_PI / 180;
+
+struct LineColor {
+    const char* name;
+    Rgba color;
+};
+constexpr LineColor line_colors[] = {{scene_names::graph_before_loops, before_color},
+                                     {scene_names::trajectory, trajectory_color},
+                                     {scene_names::keyframes, keyframe_color},
+                                     {scene_names::loops, loop_color}};
 
 template <class Object>
 typename Object::Ptr objectNamed(const COpenGLScene& scene, const char* name) {
     return std::dynamic_pointer_cast<Object>(scene.getViewport()->getByName(name));
 }
 
-float ceilingOf(const COpenGLScene& scene) {
-    const auto path = objectNamed<CSetOfLines>(scene, scene_names::trajectory);
-    const bool any = path && path->getLineCount() > 0;
-    return any ? std::max(lowest_ceiling_m, static_cast<float>(path->getBoundingBox().max.z) + 0.1f)
-               : lowest_ceiling_m;
+Eigen::Vector3d vectorOf(const mrpt::math::TPoint3D& p) {
+    return {p.x, p.y, p.z};
+}
+
+/** Positions along the trajectory's lines. */
+Trajectory pathOf(const COpenGLScene& scene) {
+    Trajectory path;
+    if (const auto lines = objectNamed<CSetOfLines>(scene, scene_names::trajectory)) {
+        for (const auto& line : *lines)
+            path.push_back({0, {Eigen::Matrix3d::Identity(), vectorOf(line.point2)}});
+    }
+    return path;
+}
+
+/** Places and directions of view, from the frustums: of their eight lines the first and then every
+ *  second one go from the eye to a corner. */
+Trajectory viewsOf(const COpenGLScene& scene) {
+    constexpr std::size_t lines_a_frustum = 8;
+    Trajectory views;
+    const auto lines = objectNamed<CSetOfLines>(scene, scene_names::keyframes);
+    for (std::size_t f = 0; lines && f + lines_a_frustum <= lines->getLineCount();
+         f += lines_a_frustum) {
+        const Eigen::Vector3d eye = vectorOf((*(lines->begin() + static_cast<long>(f))).point1);
+        Eigen::Vector3d forward = Eigen::Vector3d::Zero();
+        for (std::size_t i = 0; i < lines_a_frustum; i += 2)
+            forward += vectorOf((*(lines->begin() + static_cast<long>(f + i))).point2) - eye;
+        views.push_back(
+            {0, {Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), forward), eye}});
+    }
+    return views;
 }
 
 CPointCloudColoured::Ptr pointsBelow(const CPointCloudColoured& points, float ceiling_m) {
@@ -88,63 +125,62 @@ mrpt::opengl::CSetOfTriangles::Ptr trianglesBelow(const PlyModel& mesh, float ce
     return object;
 }
 
-/** The box of all but a few stray points, grown by the paths. */
-mrpt::math::TBoundingBox frameOf(const COpenGLScene& scene, const CPointCloudColoured& points) {
-    std::array<std::vector<float>, 3> values;
+Framing frameOf(const COpenGLScene& scene, const CPointCloudColoured& points) {
+    PointMap map;
+    map.reserve(points.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
         const auto& p = points.getPoint3Df(i);
-        for (int axis = 0; axis < 3; ++axis) values[axis].push_back(p[axis]);
+        map.push_back({{p.x, p.y, p.z}, {}});
     }
-    auto box = mrpt::math::TBoundingBox::PlusMinusInfinity();
-    const auto quantile = [](std::vector<float>& v, float share) {
-        const auto nth =
-            v.begin() + static_cast<std::ptrdiff_t>(share * static_cast<float>(v.size() - 1));
-        std::nth_element(v.begin(), nth, v.end());
-        return *nth;
-    };
-    for (int axis = 0; axis < 3 && !values[axis].empty(); ++axis) {
-        box.min[axis] = quantile(values[axis], outliers);
-        box.max[axis] = quantile(values[axis], 1 - outliers);
-    }
-    const auto path = objectNamed<CSetOfLines>(scene, scene_names::keyframes);
-    if (path && path->getLineCount() > 0) box = box.unionWith(path->getBoundingBox());
-    if (points.empty() && !path) box = scene.getBoundingBox();
-    return box;
+    Framing framing = framingOf(map, viewsOf(scene), pathOf(scene));
+    if (!framing.box.isEmpty()) return framing;
+    const auto whole = scene.getBoundingBox();
+    framing.points = {vectorOf(whole.min), vectorOf(whole.max)};
+    return framing;
 }
 
-void aim(mrpt::opengl::CCamera& camera, const mrpt::math::TBoundingBox& box,
-         const ViewOptions& options) {
-    const auto center = 0.5 * (box.min + box.max);
-    const double radius = std::max(0.5 * (box.max - box.min).norm(), 0.2);
-    camera.setProjectiveModel(true);
-    camera.setProjectiveFOVdeg(field_of_view_deg);
-    camera.setPointingAt(static_cast<float>(center.x), static_cast<float>(center.y),
-                         static_cast<float>(center.z));
-    // The ball around the box would leave much paper empty: boxes are flat and seen obliquely.
-    constexpr double fill = 0.8;
-    const double distance =
-        fill * radius / std::sin(0.5 * field_of_view_deg * M_PI / 180) / options.zoom;
-    camera.setZoomDistance(static_cast<float>(distance));
-    camera.setAzimuthDegrees(static_cast<float>(options.azimuth_deg));
-    camera.setElevationDegrees(static_cast<float>(options.elevation_deg));
+/** The lines that the scene has. */
+std::optional<FloorGrid> floorOf(const COpenGLScene& scene) {
+    const auto floor = objectNamed<mrpt::opengl::CGridPlaneXY>(scene, scene_names::floor);
+    if (!floor) return std::nullopt;
+    float x_min = 0, x_max = 0, y_min = 0, y_max = 0;
+    floor->getPlaneLimits(x_min, x_max, y_min, y_max);
+    return FloorGrid{x_min, x_max, y_min, y_max, floor->getGridFrequency()};
 }
 
-double focalLength(const ViewOptions& options) {
-    return 0.5 * oversampling * options.height_px / std::tan(0.5 * field_of_view_deg * M_PI / 180);
+OrbitCamera cameraFor(const Framing& framing, const ViewOptions& options) {
+    constexpr double least_distance_m = 0.2;
+    OrbitCamera camera;
+    camera.azimuth_rad = degree * options.azimuth_deg;
+    camera.elevation_rad = degree * options.elevation_deg;
+    camera.frame(framing.points, {options.width_px, options.height_px});
+    camera.distance_m = std::max(least_distance_m, camera.distance_m / options.zoom);
+    return camera;
+}
+
+mrpt::opengl::CCamera mrptCamera(const OrbitCamera& camera, const ViewOptions& options) {
+    mrpt::opengl::CCamera same;
+    const Eigen::Vector3f target = camera.target.cast<float>();
+    same.setProjectiveModel(true);
+    same.setProjectiveFOVdeg(static_cast<float>(OrbitCamera::field_of_view_rad / degree));
+    same.setPointingAt(target.x(), target.y(), target.z());
+    same.setZoomDistance(static_cast<float>(camera.distance_m));
+    same.setAzimuthDegrees(static_cast<float>(options.azimuth_deg));
+    same.setElevationDegrees(static_cast<float>(options.elevation_deg));
+    return same;
 }
 
 /** Lines as rows of dots: drivers draw all lines one pixel wide. \param spacing_m between dots */
-CPointCloudColoured::Ptr dotted(const CSetOfLines& lines, double spacing_m) {
+CPointCloudColoured::Ptr dotted(const CSetOfLines& lines, const Rgba& rgba, double spacing_m) {
     auto dots = CPointCloudColoured::Create();
-    const auto color = lines.getColor();
+    const mrpt::img::TColorf color(mrpt::img::TColor(rgba[0], rgba[1], rgba[2]));
     for (const auto& line : lines) {
         const auto along = line.point2 - line.point1;
         const int count = 1 + static_cast<int>(along.norm() / spacing_m);
         for (int i = 0; i <= count; ++i) {
             const auto p = line.point1 + (static_cast<double>(i) / count) * along;
             dots->push_back(static_cast<float>(p.x), static_cast<float>(p.y),
-                            static_cast<float>(p.z), static_cast<float>(color.R),
-                            static_cast<float>(color.G), static_cast<float>(color.B));
+                            static_cast<float>(p.z), color.R, color.G, color.B);
         }
     }
     dots->enableVariablePointSize(false);
@@ -162,17 +198,18 @@ void replace(COpenGLScene& scene, const mrpt::opengl::CRenderizable::Ptr& old,
 COpenGLScene restyled(const COpenGLScene& scene, const mrpt::opengl::CRenderizable::Ptr& points,
                       double pixel_m) {
     COpenGLScene copy = scene;
+    copy.getViewport()->setCustomBackgroundColor(mrpt::img::TColorf(
+        mrpt::img::TColor(background_color[0], background_color[1], background_color[2])));
     replace(copy, copy.getViewport()->getByName(scene_names::points), points);
-    for (const char* name : {scene_names::graph_before_loops, scene_names::trajectory,
-                             scene_names::keyframes, scene_names::loops}) {
+    for (const auto& [name, color] : line_colors) {
         if (const auto lines = objectNamed<CSetOfLines>(copy, name))
-            replace(copy, lines, dotted(*lines, pixel_m));
+            replace(copy, lines, dotted(*lines, color, pixel_m));
     }
     return copy;
 }
 
-cv::Mat rendered(const COpenGLScene& scene, const mrpt::opengl::CCamera& camera,
-                 const ViewOptions& options) {
+cv::Mat3b rendered(const COpenGLScene& scene, const mrpt::opengl::CCamera& camera,
+                   const ViewOptions& options) {
     mrpt::img::CImage image;
     try {
         mrpt::opengl::CFBORender renderer(static_cast<unsigned>(oversampling * options.width_px),
@@ -183,7 +220,7 @@ cv::Mat rendered(const COpenGLScene& scene, const mrpt::opengl::CCamera& camera,
         throw Error("this machine cannot render off-screen (no EGL)",
                     "install Debian's libegl-mesa0 and libgl1-mesa-dri");
     }
-    cv::Mat smooth;
+    cv::Mat3b smooth;
     cv::resize(image.asCvMatRef(), smooth, cv::Size(options.width_px, options.height_px), 0, 0,
                cv::INTER_AREA);
     return smooth;
@@ -209,21 +246,26 @@ COpenGLScene loadScene(const std::string& path) {
 
 void renderSnapshot(const COpenGLScene& scene, const ViewOptions& options,
                     const std::string& png_path, const PlyModel& mesh) {
-    const float highest_m = options.cut_ceiling ? ceilingOf(scene) : INFINITY;
+    const float highest_m =
+        options.cut_ceiling ? static_cast<float>(ceilingCut(pathOf(scene))) : INFINITY;
     const bool as_mesh = !mesh.triangles.empty();
     const auto all = objectNamed<CPointCloudColoured>(scene, scene_names::points);
     const auto points = as_mesh ? verticesBelow(mesh, highest_m)
                         : all   ? pointsBelow(*all, highest_m)
                                 : CPointCloudColoured::Create();
-    mrpt::opengl::CCamera camera;
-    aim(camera, frameOf(scene, *points), options);
-    const double pixel_m = camera.getZoomDistance() / focalLength(options);
+    const OrbitCamera camera = cameraFor(frameOf(scene, *points), options);
+    const double pixel_m =
+        camera.distance_m / OrbitCamera::focalPx(oversampling * options.height_px);
     // So that points of the usual spacing close up to a surface.
     points->setPointSize(
         std::clamp(1.2f * point_spacing_m / static_cast<float>(pixel_m), 2.f, 16.f));
     mrpt::opengl::CRenderizable::Ptr surface = points;
     if (as_mesh) surface = trianglesBelow(mesh, highest_m);
-    const cv::Mat picture = rendered(restyled(scene, surface, pixel_m), camera, options);
+    cv::Mat3b picture =
+        rendered(restyled(scene, surface, pixel_m), mrptCamera(camera, options), options);
+    if (const auto floor = floorOf(scene))
+        drawLabels(picture, floorLabels(*floor, camera, {picture.cols, picture.rows}));
+    drawScaleBar(picture, oversampling * pixel_m);
     writeAtomically(png_path,
                     [&](const std::string& temporary) { return cv::imwrite(temporary, picture); });
 }

@@ -80,7 +80,13 @@ void ViewerWindow::stepKeyframe(int step) {
 }
 
 void ViewerWindow::fit() {
-    if (!scene_->box().isEmpty()) camera_.frame(scene_->box(), mFBSize, panels_->freeShare());
+    const cv::Rect area = panels_->freeArea();
+    if (!scene_->box().isEmpty()) {
+        scene_->frame(camera_, mFBSize,
+                      {double(area.width) / width(), double(area.height) / height()});
+        const Eigen::Vector2d middle(area.x + area.width / 2., area.y + area.height / 2.);
+        camera_.pan(pixelRatio() * (middle - 0.5 * size().cast<double>()), mFBSize.y());
+    }
     follow_camera_ = false;
     sceneChanged();
 }
@@ -103,6 +109,8 @@ void ViewerWindow::toggleColors() {
 }
 
 void ViewerWindow::flip(bool ViewerSettings::*field) {
+    const std::string why = whyNothingToShow(field, live_ ? liveContents() : scene_->contents());
+    if (!why.empty()) return say(why);
     settings_.*field = !(settings_.*field);
     panels_->view().refresh();
     sceneChanged();
@@ -145,6 +153,13 @@ void ViewerWindow::measureAt(const Eigen::Vector2d& pixel) {
     say(measuring_.add(surfaceUnder(pixel)));
     scene_->markPoints(measuring_.points(), cross_share * camera_.distance_m);
     sceneChanged();
+}
+
+/** Closes a panel, or ends what was begun. */
+void ViewerWindow::escape() {
+    if (panels_->closeMiddle()) return panelsChanged();
+    if (measuring_.active()) return toggleMeasuring();
+    select(std::nullopt);
 }
 
 void ViewerWindow::takeScreenshot() {

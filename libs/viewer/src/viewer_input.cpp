@@ -14,24 +14,18 @@ std::vector<Shortcut> ViewerWindow::viewShortcuts() {
     const auto flips = [this](bool ViewerSettings::*field) {
         return [this, field] { flip(field); };
     };
-    return {
+    std::vector<Shortcut> shortcuts = {
         {GLFW_KEY_F, "F", "show everything", [this] { fit(); }},
-        {GLFW_KEY_T, "T", "from above", [this] { lookDown(); }},
+        {GLFW_KEY_T, "T", "look from above", [this] { lookDown(); }},
         {GLFW_KEY_C, "C", "follow the camera", [this] { toggleFollowing(); }},
-        {GLFW_KEY_P, "P", "points", flips(&ViewerSettings::points)},
-        {GLFW_KEY_N, "N", "mesh", flips(&ViewerSettings::mesh)},
-        {GLFW_KEY_O, "O", "octree: occupied cells", flips(&ViewerSettings::octree)},
-        {GLFW_KEY_U, "U", "octree: free cells", flips(&ViewerSettings::free_space)},
-        {GLFW_KEY_G, "G", "2-D grid", flips(&ViewerSettings::grid)},
-        {GLFW_KEY_K, "K", "keyframes", flips(&ViewerSettings::keyframes)},
-        {GLFW_KEY_V, "V", "covisibility", flips(&ViewerSettings::covisibility)},
-        {GLFW_KEY_L, "L", "loops", flips(&ViewerSettings::loops)},
-        {GLFW_KEY_B, "B", "path without loops", flips(&ViewerSettings::before_loops)},
-        {GLFW_KEY_R, "R", "true trajectory", flips(&ViewerSettings::truth)},
-        {GLFW_KEY_E, "E", "errors", flips(&ViewerSettings::errors)},
-        {GLFW_KEY_X, "X", "cut the ceiling off", flips(&ViewerSettings::cut_ceiling)},
-        {GLFW_KEY_H, "H", "colours by height", [this] { toggleColors(); }},
+        {GLFW_KEY_H, "H", "colour by height", [this] { toggleColors(); }},
     };
+    // GLFW names letters by their capitals.
+    for (const ViewSwitch& entry : viewSwitches()) {
+        if (*entry.key)
+            shortcuts.push_back({*entry.key, entry.key, entry.name, flips(entry.field)});
+    }
+    return shortcuts;
 }
 
 std::vector<Shortcut> ViewerWindow::toolShortcuts() {
@@ -43,9 +37,9 @@ std::vector<Shortcut> ViewerWindow::toolShortcuts() {
     };
     return {
         {GLFW_KEY_M, "M", "measure a distance", [this] { toggleMeasuring(); }},
-        {GLFW_KEY_SPACE, "Space", "replay, or stop it", [this] { play(!replay_.playing()); }},
-        {GLFW_KEY_LEFT, "Left", "one keyframe back", [this] { stepKeyframe(-1); }},
-        {GLFW_KEY_RIGHT, "Right", "one keyframe on", [this] { stepKeyframe(1); }},
+        {GLFW_KEY_SPACE, "Space", "play or pause the replay", [this] { play(!replay_.playing()); }},
+        {GLFW_KEY_LEFT, "Left", "previous keyframe", [this] { stepKeyframe(-1); }},
+        {GLFW_KEY_RIGHT, "Right", "next keyframe", [this] { stepKeyframe(1); }},
         {GLFW_KEY_END, "End", "the whole run", [this] { moveTo(std::nullopt); }},
         {GLFW_KEY_S, "S", "screenshot", [this] { takeScreenshot(); }},
         {GLFW_KEY_W, "W", "write the map to a file", toggles(&PanelSet::files)},
@@ -54,6 +48,7 @@ std::vector<Shortcut> ViewerWindow::toolShortcuts() {
              panels_->toggle();
              panelsChanged();
          }},
+        {GLFW_KEY_ESCAPE, "Esc", "close a dialog, stop measuring", [this] { escape(); }},
         {GLFW_KEY_F1, "? or F1", "this list", toggles(&PanelSet::help)},
         {GLFW_KEY_Q, "Q", "quit", [this] { glfwSetWindowShouldClose(glfwWindow(), 1); }},
     };
@@ -65,6 +60,7 @@ void ViewerWindow::connectPanels() {
         moveTo(replay_.now());
     };
     panels_->time().on_play = [this](bool on) { play(on); };
+    panels_->help().on_close = panels_->files().on_close = [this] { escape(); };
     panels_->files().on_export = [this](ExportFormat format) { exportMap(format); };
 }
 

@@ -27,6 +27,7 @@ void ViewerWindow::follow(const std::string& folder, std::filesystem::file_time_
     camera_.elevation_rad = first_elevation_rad;
     panels_->time().setReplayVisible(false);
     panels_->pictures().setLive(true);
+    panels_->offer(liveContents());
     placePanels();
     say("waiting for rgbd-slam to begin with -o " + folder);
 }

@@ -10,10 +10,12 @@
 
 #include "panel_contents.h"
 #include "rgbd_graphslam/core/atomic_file.h"
+#include "scene_overlay.h"
 
 namespace rgbd_graphslam {
 namespace {
 
+constexpr double hint_delay_s = 0.5;
 constexpr double busy_wait_s = 0.001, reading_wait_s = 0.05, idle_wait_s = 1;
 /** Of a picture while the view moves, what the scene gets of it at least, and what the scene of a
  *  running SLAM gets. */
@@ -68,6 +70,7 @@ void ViewerWindow::open(RunData run) {
     select(std::nullopt);
     fit();
     panels_->view().nameErrors(scene_->errorScale());
+    panels_->offer(scene_->contents());
     showRunPlots(panels_->plots(), *scene_);
     showTime();
     say(summaryOf(*scene_, points()));
@@ -98,14 +101,24 @@ double ViewerWindow::update() {
         picture_changed_ |= renderer_->complete();
     }
     panels_changed_ |= mLastInteraction != last_drawn_interaction_ && !mouse_.pressed();
+    const double hint_wait_s = updateHint();
     if (panels_changed_ || picture_changed_) {
         drawAll();
         if (live_) keepLiveBudget();
         shows_run_ = !live_ || live_->lastFrame();
     }
-    if (live_) return liveWait();
+    if (live_) return std::min(liveWait(), hint_wait_s);
     if (replay_.playing() || !renderer_->complete()) return busy_wait_s;
-    return all_read_ ? idle_wait_s : reading_wait_s;
+    return std::min(all_read_ ? idle_wait_s : reading_wait_s, hint_wait_s);
+}
+
+/** Shows the tooltip of what the mouse rests on. \return when it may have to be shown, s */
+double ViewerWindow::updateHint() {
+    const double rest_s = glfwGetTime() - mLastInteraction;
+    const nanogui::Widget* widget = findWidget(mMousePos);
+    const bool shows = rest_s > hint_delay_s && widget && !mouse_.pressed();
+    panels_changed_ |= panels_->hint(shows ? widget->tooltip() : "", mMousePos);
+    return rest_s > hint_delay_s ? idle_wait_s : hint_delay_s - rest_s + busy_wait_s;
 }
 
 /** Opaque panels can be copied over the scene; drawing them anew for each picture of a moving scene
@@ -120,7 +133,9 @@ void ViewerWindow::drawPanels() {
     panel_layer_->resize(mFBSize);
     panel_layer_->bind();
     glClear(GL_COLOR_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
-    drawWidgets();
+    const double last_interaction = std::exchange(mLastInteraction, glfwGetTime());
+    drawWidgets();  // without tooltips, which it draws when the mouse has rested
+    mLastInteraction = last_interaction;
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     last_drawn_interaction_ = mLastInteraction;
     panels_changed_ = live_panels_changed_ = false;
@@ -129,7 +144,7 @@ void ViewerWindow::drawPanels() {
 /** Of a running SLAM, over the panels as they are. Without a graphics card all panels anew would
  *  take as long as the scene. */
 void ViewerWindow::drawLivePanels() {
-    if (panels_->middleIsOpen()) return drawPanels();  // and may lie over them
+    if (panels_->anyOverOthers()) return drawPanels();  // and may lie over them
     panel_layer_->bind();
     nvgBeginFrame(mNVGContext, static_cast<float>(width()), static_cast<float>(height()),
                   mPixelRatio);
@@ -147,6 +162,7 @@ void ViewerWindow::compose() {
     if (live_panels_changed_) drawLivePanels();
     picture_changed_ = false;
     renderer_->copyToWindow();
+    drawOverlay();
     const float scale = pixelRatio();
     for (const nanogui::Widget* panel : children()) {
         if (!panel->visible()) continue;
@@ -154,6 +170,22 @@ void ViewerWindow::compose() {
         const Eigen::Vector2i size = (scale * panel->size().cast<float>()).cast<int>();
         panel_layer_->copyToWindow(cv::Rect(corner.x(), corner.y(), size.x(), size.y()), mFBSize);
     }
+}
+
+/** Distances, scale bar and colours of heights, over the scene and below the panels. */
+void ViewerWindow::drawOverlay() {
+    SceneOverlay overlay;
+    overlay.area = panels_->freeArea();
+    overlay.m_per_px = pixelRatio() * camera_.distance_m / OrbitCamera::focalPx(mFBSize.y());
+    if (settings_.floor && scene_->floor())
+        overlay.labels = floorLabels(*scene_->floor(), camera_, {width(), height()});
+    if (settings_.colors == "height" && !scene_->box().isEmpty())
+        overlay.heights_m = {scene_->box().min().z(), scene_->box().max().z()};
+    glViewport(0, 0, mFBSize.x(), mFBSize.y());
+    nvgBeginFrame(mNVGContext, static_cast<float>(width()), static_cast<float>(height()),
+                  mPixelRatio);
+    drawSceneOverlay(mNVGContext, overlay);
+    nvgEndFrame(mNVGContext);
 }
 
 void ViewerWindow::drawAll() {

@@ -11,11 +11,11 @@
 
 #include "idle_time.h"
 #include "panel_set.h"
+#include "rgbd_graphslam/mapping/orbit_camera.h"
 #include "rgbd_graphslam/viewer/cpu_budget.h"
 #include "rgbd_graphslam/viewer/live_run.h"
 #include "rgbd_graphslam/viewer/measuring.h"
 #include "rgbd_graphslam/viewer/mouse_gesture.h"
-#include "rgbd_graphslam/viewer/orbit_camera.h"
 #include "rgbd_graphslam/viewer/recording_loader.h"
 #include "rgbd_graphslam/viewer/replay_clock.h"
 #include "rgbd_graphslam/viewer/run_data.h"
@@ -68,6 +68,8 @@ class ViewerWindow : public nanogui::Screen {
 
     void drawAll() override;
     void compose();
+    void drawOverlay();
+    double updateHint();
     void drawPanels();
     void drawLivePanels();
     void styleTheme();
@@ -105,6 +107,7 @@ class ViewerWindow : public nanogui::Screen {
     void measureAt(const Eigen::Vector2d& pixel);
     void select(std::optional<std::size_t> keyframe);
     std::optional<Eigen::Vector3d> surfaceUnder(const Eigen::Vector2d& pixel) const;
+    void escape();
     void takeScreenshot();
     void exportMap(ExportFormat format);
     /** Where files are put that the user asks for. */

@@ -185,7 +185,7 @@ TEST_F(MapBuilder, everyFileIsWrittenAndReadsBack) {
     EXPECT_THAT(names, testing::UnorderedElementsAre("points.ply", "points.pcd", "points.metricmap",
                                                      "octree.bt", "octree.ot", "grid.gridmap.gz",
                                                      "grid.png", "grid.yaml", "map.simplemap",
-                                                     "scene.3Dscene", "map.png"));
+                                                     "scene.3Dscene", "map.png", "map3d.jpg"));
     EXPECT_EQ(loadPly(out + "/points.ply").size(), summary.points);
 
     mrpt::maps::CSimpleMap simple;

@@ -83,7 +83,7 @@ TEST(Findings, fewLandmarksAreSaid) {
     }
     std::vector<std::string> texts;
     for (const Finding& finding : findingsOf(run, std::nullopt)) texts.push_back(finding.text);
-    EXPECT_THAT(texts, Contains(HasSubstr("30 % of the tracked frames rest on fewer than 50")));
+    EXPECT_THAT(texts, Contains(HasSubstr("30 % of the tracked frames have fewer than 50")));
 }
 
 TEST(Findings, warningsOfTheRunAreRepeated) {

@@ -16,7 +16,7 @@ struct MadeRun {
     bool with_truth = true, with_maps = true, with_loop = true;
     // JSON
     std::string warnings = "[]", loop_edges = "[[0, 5, 40, 0.01]]", false_loops = "0",
-                earlier_sessions = "[]";
+                earlier_sessions = "[]", origin = "{}";
 };
 
 constexpr double made_start_s = 1000;
@@ -33,6 +33,7 @@ inline std::string summaryText(const MadeRun& run) {
     const char* figures = R"({"mean": 3, "median": 2.5, "p95": 4, "max": 9})";
     return "{\"version\": \"0.1.0\", \"config_hash\": \"0123456789abcdef\", \"rawlog\": \"" +
            run.rawlog + "\", \"earlier_sessions\": " + run.earlier_sessions +
+           ", \"origin\": " + run.origin +
            ", \"interrupted\": false, \"damage\": null, \"warnings\": " + run.warnings +
            ", \"out_of_order\": 0, \"culled_keyframes\": 0, \"landmarks\": 700, " +
            "\"loop_edges\": " + (run.with_loop ? run.loop_edges : "[]") +

@@ -27,8 +27,9 @@ std::string reportOf(const MadeRun& run) {
 
 TEST(RunReport, showsEverySection) {
     const std::string page = reportOf({});
-    for (const char* title : {"Map from above", "Path from above", "Before and after loops",
-                              "Error over time", "Tracked landmarks", "Time by stage"}) {
+    for (const char* title :
+         {"Map from above", "Trajectory from above", "Loop closure", "Error over time", "Inliers",
+          "CPU time by stage", "About this run"}) {
         EXPECT_THAT(page, HasSubstr(title));
     }
 }
@@ -37,7 +38,8 @@ TEST(RunReport, leavesOutWhatThereIsNot) {
     MadeRun run;
     run.with_truth = run.with_maps = run.with_loop = false;
     const std::string page = reportOf(run);
-    for (const char* title : {"Map from above", "Before and after loops", "Error over time"}) {
+    for (const char* title :
+         {"Map from above", "3-D map", "Loop closure", "Error over time", "intrinsics"}) {
         EXPECT_THAT(page, Not(HasSubstr(title)));
     }
 }
@@ -68,6 +70,24 @@ TEST(RunReport, tellsTheSameErrorAsTheRun) {
     EXPECT_THAT(reportOf(MadeRun()), HasSubstr("<b>12.3 mm</b><span>ATE RMSE"));
 }
 
+TEST(RunReport, tellsCommandDateAndCamera) {
+    MadeRun run;
+    run.origin = R"({"command": "rgbd-slam a.ini b.rawlog -o 'my out'", "date": "2024-05-01 14:03",
+        "camera": {"width": 640, "height": 480, "fx": 517.3, "fy": 516.5, "cx": 318.6,
+                   "cy": 255.3, "distortion": [0.26, -0.95, -0.005, 0.002, 1.16]}})";
+    const std::string page = reportOf(run);
+    EXPECT_THAT(page, HasSubstr("rgbd-slam a.ini b.rawlog -o &#39;my out&#39;"));
+    EXPECT_THAT(page, HasSubstr("2024-05-01 14:03"));
+    EXPECT_THAT(page, HasSubstr("640 x 480 px, pinhole with Brown-Conrady distortion"));
+    EXPECT_THAT(page, HasSubstr("fx 517.30, fy 516.50, cx 318.60, cy 255.30 px; k1 0.26"));
+}
+
+TEST(RunReport, figuresHaveNoNeedlessDecimals) {
+    EXPECT_THAT(reportOf(MadeRun()),
+                HasSubstr("<td>60</td><td>3.0</td><td>2.5</td><td>4.0</td><td>9.0</td>"));
+    EXPECT_THAT(reportOf(MadeRun()), HasSubstr("<b>7.0 ms</b><span>CPU per frame"));
+}
+
 TEST(RunReport, tellsTheShareOfAStage) {
     EXPECT_THAT(reportOf(MadeRun()), HasSubstr("<td>100 %</td><td class=\"bar\">"));
 }
@@ -90,7 +110,7 @@ TEST(RunReport, namesItsLinesWhereTheFirstPieceIsAPoint) {
     run.end_lost = 4;
     const std::string page = reportOf(run);
     EXPECT_THAT(page, HasSubstr(">estimate</text>"));
-    EXPECT_THAT(page, HasSubstr(">keyframes with loops</text>"));
+    EXPECT_THAT(page, HasSubstr(">after loop closure</text>"));
 }
 
 TEST(RunReport, drawsNothingAcrossLostFrames) {
@@ -113,7 +133,7 @@ TEST(RunReport, showsTheWorstLoopsAndMarksFalseOnes) {
     const std::string page = reportOf(run);
     const auto worst = page.find(
         "<tr class=\"false\"><td>1 and 5</td><td>1.0 s and 5.0 s</td>"
-        "<td>33</td><td>700.0 mm, false</td></tr>");
+        "<td>33</td><td>700 mm, false</td></tr>");
     const auto good = page.find(
         "<tr><td>0 and 5</td><td>0.0 s and 5.0 s</td><td>40</td>"
         "<td>12.0 mm</td></tr>");
@@ -121,8 +141,7 @@ TEST(RunReport, showsTheWorstLoopsAndMarksFalseOnes) {
     EXPECT_GT(good, worst);
     EXPECT_LT(good, page.find("<td>1 and 4</td>"));
     EXPECT_THAT(
-        page,
-        HasSubstr("known for 2 of 3, it is off by 356.0 mm in the median and 700.0 mm at most"));
+        page, HasSubstr("(known for 2 of 3 loops) it is 356 mm in the median and 700 mm at most"));
     EXPECT_THAT(page, HasSubstr("1 of 3 loops is false"));
 }
 
@@ -177,12 +196,12 @@ class ReportInChromium : public testing::Test {
         }
     }
     /** \return what it printed */
-    std::string chromium(const std::string& arguments) const {
+    std::string chromium(const std::string& arguments, const char* page = "report.html") const {
         const std::string command =
             "timeout 60 chromium --headless --no-sandbox --disable-gpu --hide-scrollbars "
-            "--window-size=1160,1400 --user-data-dir='" +
-            folder_ / "profile" + "' " + arguments + " 'file://" + folder_ / "report.html" +
-            "' >'" + folder_ / "out" + "' 2>'" + folder_ / "err" + "' </dev/null";
+            "--window-size=1160,1900 --user-data-dir='" +
+            folder_ / "profile" + "' " + arguments + " 'file://" + folder_ / page + "' >'" +
+            folder_ / "out" + "' 2>'" + folder_ / "err" + "' </dev/null";
         const int status = std::system(command.c_str());
         EXPECT_EQ(status, 0) << readText(folder_ / "err");
         return readText(folder_ / "out");
@@ -201,10 +220,22 @@ TEST_F(ReportInChromium, isDrawn) {
     writeRunReport(folder_ / "", folder_ / "");
     chromium("--screenshot='" + folder_ / "page.png" + "'");
     const cv::Mat picture = cv::imread(folder_ / "page.png");
-    ASSERT_EQ(picture.size(), cv::Size(1160, 1400));
+    ASSERT_EQ(picture.size(), cv::Size(1160, 1900));
     EXPECT_GT(pixelsLike(picture, {255, 0, 255}), 100000);  // the map
     EXPECT_GT(pixelsLike(picture, {31, 102, 217}), 300);    // the path
     EXPECT_GT(pixelsLike(picture, {180, 119, 31}), 300);    // keyframes, landmarks, times
+}
+
+TEST_F(ReportInChromium, fitsTheScreenOfATelephone) {
+    makeRunFolder(folder_, {});
+    writeRunReport(folder_ / "", folder_ / "");
+    // In a frame of that width: windows of a browser have a least width.
+    folder_.write("frame.html",
+                  "<iframe id=f style='width:420px;height:3000px' src=report.html></iframe><script>"
+                  "f.onload=()=>document.title=f.contentDocument.documentElement.scrollWidth"
+                  "</script>");
+    const std::string dom = chromium("--allow-file-access-from-files --dump-dom", "frame.html");
+    EXPECT_THAT(dom, HasSubstr("<title>420</title>"));
 }
 
 TEST_F(ReportInChromium, takesAHostileNameForText) {

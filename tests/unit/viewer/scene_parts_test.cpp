@@ -161,19 +161,13 @@ TEST(FewerTriangles, spanTheSameSurface) {
     EXPECT_TRUE(fewerTriangles({}, 0).empty());
 }
 
-TEST(BoxOf, leavesStrayPointsOut) {
-    RunData run;
-    run.trajectory = alongX(2);
-    for (int i = 0; i < 2000; ++i) {
-        const float x = 0.001f * static_cast<float>(i);
-        run.points.push_back({{x, 2 * x, 0}, {}});
-    }
-    run.points.push_back({{900, 900, 900}, {}});
-    const auto box = boxOf(run);
-    EXPECT_LT(box.max().x(), 2.1);
-    EXPECT_GT(box.max().y(), 3.9);
-    EXPECT_DOUBLE_EQ(box.max().z(), 1);  // the trajectory is never left out
-    EXPECT_TRUE(boxOf(RunData()).isEmpty());
+TEST(FloorLines, areOneAStep) {
+    FloorGrid grid;
+    grid.x_min_m = -1, grid.x_max_m = 1, grid.y_max_m = 1.5, grid.step_m = 0.5;
+    const Vertices lines = floorLines(grid, red);
+    ASSERT_EQ(lines.size(), 2U * (5 + 4));
+    EXPECT_FLOAT_EQ(lines.front().position.x(), -1);
+    EXPECT_FLOAT_EQ(lines.back().position.y(), 1.5f);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 #include "rgbd_graphslam/mapping/map_scene.h"
+#include "rgbd_graphslam/mapping/scene_colors.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -85,8 +86,21 @@ TEST_F(Snapshot, pathsAreSeen) {
     view.width_px = 320, view.height_px = 240;
     renderSnapshot(makeScene(inputs, sheet(0, {200, 200, 200}), Camera()), view, path("a.png"));
     const cv::Mat3b image = cv::imread(path("a.png"));
-    EXPECT_GT(pixelsLike(image, {200, 90, 30}), 20);  // keyframes, blue
-    EXPECT_GT(pixelsLike(image, {60, 25, 215}), 20);  // loop, red, over the straight trajectory
+    const auto bgr = [](const Rgba& color) { return cv::Vec3b(color[2], color[1], color[0]); };
+    EXPECT_GT(pixelsLike(image, bgr(keyframe_color)), 20);
+    EXPECT_GT(pixelsLike(image, bgr(loop_color)), 20);  // over the straight trajectory
+    EXPECT_GT(pixelsLike(image, bgr(background_color)), 5000);
+}
+
+TEST_F(Snapshot, aFewStrayPointsDoNotMakeTheMapSmall) {
+    PointMap points = sheet(0, {200, 30, 20});
+    ViewOptions view;
+    view.width_px = 320, view.height_px = 240, view.elevation_deg = 89;
+    renderSnapshot(makeScene(MapInputs(), points, Camera()), view, path("a.png"));
+    const int without = pixelsLike(cv::imread(path("a.png")), {20, 30, 200});
+    for (int i = 0; i < 100; ++i) points.push_back({{30, 0.01f * static_cast<float>(i), 0}, {}});
+    renderSnapshot(makeScene(MapInputs(), points, Camera()), view, path("b.png"));
+    EXPECT_GT(pixelsLike(cv::imread(path("b.png")), {20, 30, 200}), 0.9 * without);
 }
 
 TEST_F(Snapshot, sceneFilesThatAreNoScenesAreRefused) {

@@ -13,6 +13,9 @@
 
 namespace rgbd_graphslam {
 
+/** What every warning says in which up is nothing but a guess. */
+inline constexpr const char* guessed_up = "assuming the first camera was level";
+
 /** Fed while the rawlog is read for tracking, it spares reading it again. Of a long run it keeps
  *  every second, every fourth, ... keyframe, so that its memory is bounded. */
 class LevelSurvey {

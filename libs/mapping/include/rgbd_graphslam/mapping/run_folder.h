@@ -28,6 +28,9 @@ struct LocalisedRun {
  *  \throws Error when a file makes no sense, or the folder of the map is gone */
 std::optional<LocalisedRun> readLocalisedRun(const std::string& folder);
 
+/** Whether the run's warnings tell that its z axis is a guess. */
+bool upIsGuessed(const std::string& folder);
+
 /** Section MapOptions of the folder's config.ini; defaults when there is no such file. Other
  * sections are left alone. \throws Error as IniFile does */
 MapOptions readRunOptions(const std::string& folder);

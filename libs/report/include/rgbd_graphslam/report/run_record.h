@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "rgbd_graphslam/geometry/camera.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 
 namespace rgbd_graphslam {
@@ -32,7 +33,14 @@ struct LoopRecord {
     std::optional<double> error_m;
 };
 
+/** What was run, when and with which camera; empty of runs of earlier versions. */
+struct RunOrigin {
+    std::string command, date;
+    std::optional<Camera> camera;
+};
+
 struct RunRecord {
+    RunOrigin origin;
     std::string rawlog, version, config_hash;
     bool interrupted = false;
     std::string damage;                 // why the rawlog ended early; empty when it did not
@@ -56,7 +64,7 @@ struct RunRecord {
     Trajectory truth;  // empty where it is not known
 
     /** Pictures as files hold them; empty where there are none. */
-    std::string map_png, grid_png, keyframes_jpg;
+    std::string map_png, map3d_jpg, grid_png, keyframes_jpg;
 
     std::size_t count(FrameState state) const;
 };

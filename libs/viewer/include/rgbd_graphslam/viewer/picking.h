@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "rgbd_graphslam/geometry/trajectory.h"
-#include "rgbd_graphslam/viewer/orbit_camera.h"
+#include "rgbd_graphslam/mapping/orbit_camera.h"
 
 namespace rgbd_graphslam {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "rgbd_graphslam/viewer/orbit_camera.h"
+#include "rgbd_graphslam/mapping/orbit_camera.h"
 #include "rgbd_graphslam/viewer/vertex.h"
 
 namespace rgbd_graphslam {

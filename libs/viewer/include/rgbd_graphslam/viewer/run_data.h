@@ -47,6 +47,8 @@ struct RunData {
     /** Output folder; empty when only a cloud was opened. */
     std::string folder;
     std::string rawlog;  // empty when it is gone
+    /** Neither an accelerometer nor a floor has said which way is up. */
+    bool up_is_guessed = false;
     Trajectory trajectory, keyframes, keyframes_before_loops;
     /** Numbers of keyframes of earlier sessions; paths are not drawn from one to the next. */
     std::vector<std::size_t> earlier_keyframes;

@@ -6,6 +6,7 @@
 
 #include "rgbd_graphslam/geometry/camera.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/mapping/view_scale.h"
 #include "rgbd_graphslam/viewer/run_data.h"
 #include "rgbd_graphslam/viewer/vertex.h"
 
@@ -29,8 +30,7 @@ Vertices edgeLines(const Trajectory& keyframes, const std::vector<KeyframeEdge>&
 Vertices pairLines(const std::vector<std::pair<Eigen::Vector3d, Eigen::Vector3d>>& pairs,
                    const Rgba& color);
 
-/** Lines every metre on the floor below the box. */
-Vertices floorLines(const Eigen::AlignedBox3d& box, const Rgba& color);
+Vertices floorLines(const FloorGrid& grid, const Rgba& color);
 
 /** The sides of an octree's cells that other cells do not cover whole, as triangles; one list a
  *  direction: -x, +x, -y, +y, -z, +z. */
@@ -50,8 +50,5 @@ Vertices meshVertices(const PlyModel& mesh);
  * complex scenes", 1993). The cubes are as large as it takes. \param most how many triangles; a
  * mesh that has no more stays as it is */
 Triangles fewerTriangles(const PlyModel& mesh, std::size_t most);
-
-/** The box of everything but a few stray points, for framing. */
-Eigen::AlignedBox3d boxOf(const RunData& run);
 
 }  // namespace rgbd_graphslam

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-namespace rgbd_graphslam {
+#include "rgbd_graphslam/mapping/scene_colors.h"
 
-using Rgba = std::array<std::uint8_t, 4>;
+namespace rgbd_graphslam {
 
 /** A corner of a point, line or triangle; 16 bytes, uploaded as it lies in memory. */
 struct Vertex {

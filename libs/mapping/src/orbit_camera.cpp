@@ -1,4 +1,4 @@
-#include "rgbd_graphslam/viewer/orbit_camera.h"
+#include "rgbd_graphslam/mapping/orbit_camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -62,6 +62,28 @@ void OrbitCamera::frame(const Eigen::AlignedBox3d& box, const Eigen::Vector2i& s
         needed_m = std::max(needed_m, sideways + p.dot(z));
     }
     distance_m = std::min(1.05 * needed_m, farthest_distance_m);
+}
+
+void OrbitCamera::frame(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector2i& size_px,
+                        const Eigen::Vector2d& share) {
+    Eigen::AlignedBox3d box;
+    for (const Eigen::Vector3d& p : points) box.extend(p);
+    if (box.isEmpty()) return;
+    frame(box, size_px, share);
+    constexpr double margin = 1.06;
+    const Eigen::Array2d room_px = share.array() * size_px.cast<double>().array();
+    for (int i = 0; i < 6; ++i) {  // perspective changes with the distance
+        Eigen::AlignedBox2d seen;
+        for (const Eigen::Vector3d& p : points) {
+            const Eigen::Vector3d uvz = project(p, size_px);
+            if (uvz.z() > 0) seen.extend(uvz.head<2>());
+        }
+        if (seen.isEmpty()) return;
+        pan(0.5 * size_px.cast<double>() - seen.center(), size_px.y());
+        const double growth = margin * (seen.sizes().array() / room_px).maxCoeff();
+        distance_m = std::clamp(std::clamp(growth, 0.3, 3.) * distance_m, nearest_distance_m,
+                                farthest_distance_m);
+    }
 }
 
 double OrbitCamera::focalPx(int height_px) {

@@ -1,4 +1,4 @@
-#include "rgbd_graphslam/viewer/orbit_camera.h"
+#include "rgbd_graphslam/mapping/orbit_camera.h"
 
 #include <gtest/gtest.h>
 

@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <vector>
 
 namespace rgbd_graphslam {
 
@@ -30,6 +31,11 @@ class OrbitCamera {
     /** Moves back until the box fits into the view, whatever its shape.
      *  \param share of the view's width and height, round its centre, that may be used */
     void frame(const Eigen::AlignedBox3d& box, const Eigen::Vector2i& size_px,
+               const Eigen::Vector2d& share = {1, 1});
+
+    /** Moves so that all points are in the view and fill it, which brings it nearer than their box
+     *  would. */
+    void frame(const std::vector<Eigen::Vector3d>& points, const Eigen::Vector2i& size_px,
                const Eigen::Vector2d& share = {1, 1});
 
     /** World to OpenGL's clip coordinates. */

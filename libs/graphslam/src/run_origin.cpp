@@ -1,0 +1,22 @@
+#include "run_origin.h"
+
+#include "rgbd_graphslam/core/command_text.h"
+
+namespace rgbd_graphslam {
+
+nlohmann::json originJson(const std::optional<Camera>& camera) {
+    nlohmann::json json = {
+        {"command", commandText()}, {"date", localTimeText()}, {"camera", nullptr}};
+    if (camera) {
+        json["camera"] = {{"width", camera->width},
+                          {"height", camera->height},
+                          {"fx", camera->fx},
+                          {"fy", camera->fy},
+                          {"cx", camera->cx},
+                          {"cy", camera->cy},
+                          {"distortion", camera->distortion}};
+    }
+    return json;
+}
+
+}  // namespace rgbd_graphslam
