@@ -75,6 +75,16 @@ void addRpe(CLI::App& app, RpeRequest& request) {
     command.final_callback([&request] { print(runRpe(request)); });
 }
 
+void addConsistency(CLI::App& app, ConsistencyRequest& request) {
+    auto& command = *app.add_subcommand(
+        "consistency", "Whether tracked frames err as much as the run says, and how far they jump");
+    command.add_option("RUN", request.run_folder, "Output folder of rgbd-slam")->required();
+    command.add_option("TRUTH", request.truth, "True trajectory: TUM text file or .rawlog")
+        ->required();
+    declareFormat(command, request.format);
+    command.final_callback([&request] { print(runConsistency(request)); });
+}
+
 void addAssociate(CLI::App& app, AssociateRequest& request) {
     auto& command = *app.add_subcommand("associate", "Pair the lines of two lists by stamp");
     command.add_option("FILE1", request.first, "List, e.g. rgb.txt")->required();
@@ -179,12 +189,14 @@ int run(int argc, char** argv) {
     app.fallthrough();
     AteRequest ate;
     RpeRequest rpe;
+    ConsistencyRequest consistency;
     AssociateRequest association;
     PointCloudRequest cloud;
     std::vector<std::string> cloud_files;
     MapRequest map;
     addAte(app, ate);
     addRpe(app, rpe);
+    addConsistency(app, consistency);
     addAssociate(app, association);
     addPointCloud(app, cloud, cloud_files);
     addMap(app, map);

@@ -14,6 +14,7 @@
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/dataset/tum_sequence.h"
+#include "rgbd_graphslam/evaluation/consistency.h"
 #include "rgbd_graphslam/export/pose_graph_text.h"
 #include "rgbd_graphslam/features/feature_options.h"
 #include "rgbd_graphslam/graphslam/sparse_map_file.h"
@@ -91,6 +92,12 @@ void fuzzTrajectory(const std::string& bytes) {
     mayRefuse([&] { toTumText(readTumTrajectory(fileOf("trajectory.txt", bytes))); });
 }
 
+void fuzzFramesCsv(const std::string& bytes) {
+    fileOf("run/trajectory.txt", "1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n");
+    fileOf("run/frames.csv", bytes);
+    mayRefuse([&] { readClaimedPoses(folder() / "run"); });
+}
+
 void fuzzRawlog(const std::string& bytes) {
     mayRefuse([&] { readWholeRawlog(fileOf("a.rawlog", bytes)); });
 }
@@ -121,7 +128,8 @@ const std::vector<NamedTarget>& fuzzTargets() {
                                                      {"checkpoint", fuzzCheckpoint},
                                                      {"binary_octree", fuzzBinaryOcTree},
                                                      {"color_octree", fuzzColorOcTree},
-                                                     {"pose_graph", fuzzPoseGraph}};
+                                                     {"pose_graph", fuzzPoseGraph},
+                                                     {"frames_csv", fuzzFramesCsv}};
     return targets;
 }
 

@@ -13,6 +13,8 @@ void fuzzTumList(const std::string& bytes);
 void fuzzIni(const std::string& bytes);
 void fuzzCameraIni(const std::string& bytes);
 void fuzzTrajectory(const std::string& bytes);
+/** frames.csv of a run, as rgbd-eval consistency reads it. */
+void fuzzFramesCsv(const std::string& bytes);
 /** Every observation, and the images of those that are RGB-D. */
 void fuzzRawlog(const std::string& bytes);
 /** The bytes are a map.sparse behind its check sum, which would keep all others out. */

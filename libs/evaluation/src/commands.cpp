@@ -7,6 +7,7 @@
 #include "rgbd_graphslam/core/progress.h"
 #include "rgbd_graphslam/dataset/camera_file.h"
 #include "rgbd_graphslam/dataset/rawlog_info.h"
+#include "rgbd_graphslam/evaluation/consistency.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -125,6 +126,14 @@ std::string runRpe(const RpeRequest& request) {
         request.options.fixed_delta ? ErrorPanel::Style::Lines : ErrorPanel::Style::Points;
     plotErrors(request, errorPanels(evaluated, style));
     return tableOf(evaluated, request);
+}
+
+std::string runConsistency(const ConsistencyRequest& request) {
+    const auto claims = readClaimedPoses(request.run_folder);
+    const auto truth = readTrajectory(request.truth);
+    const auto result =
+        naming(request.run_folder, [&] { return evaluateConsistency(claims, truth); });
+    return format({reportOf(labelsOf({request.run_folder}).front(), result)}, request.format);
 }
 
 std::string runAssociate(const AssociateRequest& request) {

@@ -1,6 +1,7 @@
 #include "output_texts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -83,11 +84,18 @@ StageFigures figuresOf(const std::vector<double>& ms) {
 }
 
 std::string framesCsv(const std::vector<TrackedFrame>& frames) {
-    std::string text = "stamp_s,origin,inliers,keyframe,part\n";
+    std::string text =
+        "stamp_s,origin,inliers,keyframe,part,std_x_m,std_y_m,std_z_m,std_rot_x_rad,"
+        "std_rot_y_rad,std_rot_z_rad\n";
     for (const TrackedFrame& frame : frames) {
         text += formatted("%.6f,%s,%d,", frame.stamp_s, toString(frame.origin), frame.inliers);
         text += (frame.keyframe ? std::to_string(*frame.keyframe) : "") + ",";
-        text += (frame.origin == FrameOrigin::Lost ? "" : std::to_string(frame.part)) + "\n";
+        text += (frame.origin == FrameOrigin::Lost ? "" : std::to_string(frame.part));
+        for (int i = 0; i < 6; ++i) {
+            text +=
+                frame.covariance ? formatted(",%.5f", std::sqrt((*frame.covariance)(i, i))) : ",";
+        }
+        text += "\n";
     }
     return text;
 }
@@ -123,6 +131,7 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"tracked", report.tracked},
         {"recovered", report.recovered},
         {"weak", report.weak},
+        {"uncertain", report.uncertain},
         {"lost", report.lost},
         {"apart", report.apart},
         {"out_of_order", report.out_of_order},
@@ -149,6 +158,9 @@ std::string resultTable(const SlamJob& job, const JobReport& report) {
     std::string text =
         formatted("frames        %zu: %zu tracked, %zu recovered, %zu weak, %zu lost\n",
                   report.frames, report.tracked, report.recovered, report.weak, report.lost);
+    if (report.uncertain > 0) {
+        text += formatted("uncertain     %zu frames\n", report.uncertain);
+    }
     if (report.apart > 0) text += formatted("apart         %zu of them\n", report.apart);
     if (report.out_of_order > 0) {
         text += formatted("left out      %zu frames out of order\n", report.out_of_order);

@@ -32,6 +32,7 @@ void countFrames(RunState& run) {
         report.tracked += frame.origin == FrameOrigin::Tracked;
         report.recovered += frame.origin == FrameOrigin::Recovered;
         report.weak += frame.origin == FrameOrigin::Weak;
+        report.uncertain += frame.origin == FrameOrigin::Uncertain;
         report.lost += frame.origin == FrameOrigin::Lost;
         report.apart += frame.origin != FrameOrigin::Lost && run.apart(frame.part);
     }

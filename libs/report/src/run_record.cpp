@@ -24,8 +24,10 @@ FrameState stateOf(const std::string& word, const std::string& place) {
     if (word == "tracked") return FrameState::Tracked;
     if (word == "recovered") return FrameState::Recovered;
     if (word == "weak") return FrameState::Weak;
+    if (word == "uncertain") return FrameState::Uncertain;
     if (word == "lost") return FrameState::Lost;
-    throw Error(place + ": a frame is tracked, recovered, weak or lost", "run rgbd-slam again");
+    throw Error(place + ": a frame is tracked, recovered, weak, uncertain or lost",
+                "run rgbd-slam again");
 }
 
 /** Lines of stamp_s,origin,inliers,keyframe,part below a line of titles. */

@@ -103,7 +103,7 @@ class Level {
         if (surfaces_ < least_smooth * static_cast<double>(pairs_.size())) return false;
         if (fitting_surfaces_ < least_fitting * surfaces_) return false;
         if (uses_grey_ && fitting_greys_ < least_fitting * greys_) return false;
-        const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(hessian_);
+        const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(hessian_ - informationOfNoise());
         return solver.eigenvalues()[0] > alike_pixels / (largest_sigma * largest_sigma);
     }
     double overlap() const { return overlap_; }
@@ -144,6 +144,42 @@ class Level {
         }
     }
 
+    /** What the noise of normals adds to the information: a flat thing seems to hold every
+     *  direction, as each reading tilts the surface a little. Normals of pixels that share no
+     *  reading tilt independently, so that products of two show the surface without the noise. */
+    Matrix6d informationOfNoise() const {
+        Matrix6d noise = Matrix6d::Zero();
+        for (const Pair& pair : pairs_) {
+            const Eigen::Vector3d& normal = surface_.normals[pair.reference_pixel];
+            const Eigen::Vector3d& other = surface_.normals[independentNeighbor(pair)];
+            if (normal.isZero() || other.isZero()) continue;
+            const double distance = normal.dot(pair.point - surface_.points[pair.reference_pixel]);
+            const double sigma = sigmaOf(pair);
+            if (std::abs(distance) > 3 * sigma) continue;
+            const Vector6d a = surfaceJacobian(pair.point, normal) / sigma;
+            const Vector6d b = surfaceJacobian(pair.point, other) / sigma;
+            noise.noalias() += 0.5 * (a - b) * (a - b).transpose();
+        }
+        return noise;
+    }
+
+    int independentNeighbor(const Pair& pair) const {
+        constexpr int apart = 3;
+        const int column = pair.reference_pixel % surface_.camera.width;
+        return pair.reference_pixel + (column >= apart ? -apart : apart);
+    }
+
+    /** Errors of depth grow with its square. */
+    static double sigmaOf(const Pair& pair) {
+        return surface_sigma_m * std::max(1.0, 0.25 * pair.point.squaredNorm());
+    }
+
+    static Vector6d surfaceJacobian(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) {
+        Vector6d jacobian;
+        jacobian << normal, point.cross(normal);
+        return jacobian;
+    }
+
     void add(double residual, const Vector6d& jacobian) {
         const double weight = huber(residual * residual, huber_sigmas * huber_sigmas).weight;
         hessian_.noalias() += weight * jacobian * jacobian.transpose();
@@ -155,13 +191,10 @@ class Level {
         if (normal.isZero()) return;
         const double distance = normal.dot(pair.point - surface_.points[pair.reference_pixel]);
         ++surfaces_;
-        // Errors of depth grow with its square.
-        const double sigma = surface_sigma_m * std::max(1.0, 0.25 * pair.point.squaredNorm());
+        const double sigma = sigmaOf(pair);
         if (std::abs(distance) > widest_m_ + 3 * (sigma - surface_sigma_m)) return;
         fitting_surfaces_ += std::abs(distance) < 3 * sigma;
-        Vector6d jacobian;
-        jacobian << normal, pair.point.cross(normal);
-        add(distance / sigma, jacobian / sigma);
+        add(distance / sigma, surfaceJacobian(pair.point, normal) / sigma);
     }
 
     double referenceGrey(int x, int y) const { return surface_.view.grey[surface_.index(x, y)]; }

@@ -9,7 +9,9 @@
 namespace rgbd_graphslam {
 namespace {
 
-constexpr std::size_t record_bytes = sizeof(double) + 1 + 3 * 4 + pose_bytes;
+constexpr std::size_t record_bytes =
+    sizeof(double) + 1 + 3 * 4 + pose_bytes + sizeof(PackedCovariance);
+constexpr float largest_variance = 1e12f;
 
 void put(const KeptFrame& record, ByteWriter& out) {
     out.put(record.stamp_s);
@@ -18,13 +20,14 @@ void put(const KeptFrame& record, ByteWriter& out) {
     out.putCount(record.reference_keyframe);
     encodePose(record.T_cam_reference, out);
     out.put<std::int32_t>(record.keyframe.value_or(-1));
+    for (const float entry : record.covariance) out.put(entry);
 }
 
 KeptFrame getRecord(ByteReader& in, std::size_t keyframes) {
     KeptFrame record;
     record.stamp_s = getFinite(in);
     const auto origin = in.get<std::uint8_t>();
-    if (origin > static_cast<std::uint8_t>(FrameOrigin::Lost))
+    if (origin > static_cast<std::uint8_t>(FrameOrigin::Uncertain))
         throw DamagedBytes("a frame of no kind");
     record.origin = static_cast<FrameOrigin>(origin);
     record.inliers = in.get<std::int32_t>();
@@ -34,16 +37,38 @@ KeptFrame getRecord(ByteReader& in, std::size_t keyframes) {
     if (keyframe >= static_cast<std::int64_t>(keyframes))
         throw DamagedBytes("a frame of no keyframe");
     if (keyframe >= 0) record.keyframe = keyframe;
+    for (float& entry : record.covariance) entry = getFloat(in, largest_variance);
     return record;
 }
 
 }  // namespace
 
+PackedCovariance packed(const Matrix6d& covariance) {
+    PackedCovariance result;
+    auto entry = result.begin();
+    for (int i = 0; i < 6; ++i) {
+        for (int j = i; j < 6; ++j) {
+            *entry++ = std::clamp(static_cast<float>(covariance(i, j)), -largest_variance,
+                                  largest_variance);
+        }
+    }
+    return result;
+}
+
+Matrix6d unpacked(const PackedCovariance& packed) {
+    Matrix6d covariance;
+    auto entry = packed.begin();
+    for (int i = 0; i < 6; ++i) {
+        for (int j = i; j < 6; ++j) covariance(i, j) = covariance(j, i) = *entry++;
+    }
+    return covariance;
+}
+
 SE3 KeptFrame::T_cam_world(const SlamMap& map) const {
     return T_cam_reference * map.T_cam_world(reference_keyframe);
 }
 
-TrackedFrame KeptFrame::view(const SlamMap& map) const {
+TrackedFrame KeptFrame::view(const SlamMap& map, const MapUncertainty& uncertainty) const {
     TrackedFrame frame;
     frame.stamp_s = stamp_s;
     frame.origin = origin;
@@ -54,6 +79,9 @@ TrackedFrame KeptFrame::view(const SlamMap& map) const {
     if (map.keyframes().empty()) return frame;
     frame.part = map.keyframe(reference_keyframe).part;
     frame.T_world_cam = T_cam_world(map).inverse();
+    if (origin != FrameOrigin::Lost) {
+        frame.covariance = uncertainty.inWorld(unpacked(covariance), reference_keyframe);
+    }
     return frame;
 }
 
@@ -68,9 +96,10 @@ SE3 KeptFrames::lastPose(const SlamMap& map) const {
     return records_.empty() ? map.T_cam_world(0) : records_.back().T_cam_world(map);
 }
 
-std::vector<TrackedFrame> KeptFrames::views(const SlamMap& map) const {
+std::vector<TrackedFrame> KeptFrames::views(const SlamMap& map,
+                                            const MapUncertainty& uncertainty) const {
     std::vector<TrackedFrame> views;
-    for (const KeptFrame& record : records_) views.push_back(record.view(map));
+    for (const KeptFrame& record : records_) views.push_back(record.view(map, uncertainty));
     return views;
 }
 

@@ -10,7 +10,6 @@ namespace rgbd_graphslam {
 namespace {
 
 constexpr int fewest_votes = 15;
-constexpr int relocalisation_candidates = 5;
 constexpr int fused_neighbours = 10;
 }  // namespace
 
@@ -134,20 +133,13 @@ std::optional<VerifiedLoop> LoopCloser::verify(int keyframe, int candidate) {
     return loop;
 }
 
-std::optional<LocatedFrame> LoopCloser::relocalise(Frame& frame, Tracker& tracker) const {
-    int tried = 0;
+std::vector<int> LoopCloser::placesLike(const Frame& frame, int most) const {
+    std::vector<int> keyframes;
     for (const PlaceVote& vote : index_.query(frame.descriptors)) {
-        if (vote.votes < fewest_votes || tried >= relocalisation_candidates) break;
-        if (map_.keyframe(vote.keyframe).culled) continue;
-        ++tried;
-        const auto aligned =
-            alignWithKeyframe(frame, map_.keyframe(vote.keyframe), map_, camera_, options_);
-        if (!aligned) continue;
-        auto located = tracker.trackLocalMap(frame, aligned->T_cam_world, aligned->landmarks);
-        // As much proof as a loop needs: a wrong place is worse than none.
-        if (located && located->inliers >= options_.loops.min_inliers) return located;
+        if (vote.votes < fewest_votes || static_cast<int>(keyframes.size()) >= most) break;
+        if (!map_.keyframe(vote.keyframe).culled) keyframes.push_back(vote.keyframe);
     }
-    return std::nullopt;
+    return keyframes;
 }
 
 bool LoopCloser::correct(const std::vector<SE3>& T_world_keyframe, LocalMapper& mapper) {

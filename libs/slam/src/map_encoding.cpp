@@ -109,6 +109,21 @@ SE3 decodePose(ByteReader& in) {
     return pose;
 }
 
+void put(const DeadReckoning& reckoning, ByteWriter& out) {
+    const auto& [T_odometry_cam, R_gyroscope_cam] = reckoning;
+    putFlag(T_odometry_cam.has_value(), out);
+    if (T_odometry_cam) encodePose(*T_odometry_cam, out);
+    putFlag(R_gyroscope_cam.has_value(), out);
+    if (R_gyroscope_cam) encodePose({*R_gyroscope_cam, Eigen::Vector3d::Zero()}, out);
+}
+
+DeadReckoning getReckoning(ByteReader& in) {
+    DeadReckoning reckoning;
+    if (getFlag(in)) reckoning.T_odometry_cam = decodePose(in);
+    if (getFlag(in)) reckoning.R_gyroscope_cam = decodePose(in).R;
+    return reckoning;
+}
+
 void put(const Descriptor& descriptor, ByteWriter& out) {
     for (const std::uint64_t word : descriptor) out.put(word);
 }

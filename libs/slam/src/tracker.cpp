@@ -6,6 +6,7 @@
 #include "rgbd_graphslam/core/free_memory.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
 #include "rgbd_graphslam/slam/matcher.h"
+#include "rgbd_graphslam/slam/ransac_alignment.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -13,6 +14,11 @@ namespace {
 constexpr float motion_match_ratio = 0.9f;
 constexpr float map_match_ratio = 0.85f;
 constexpr double widest_view_change_cosine = 0.5;
+/** Windows around a pose by dead reckoning reach so many standard deviations. */
+constexpr double window_sigmas = 2.5;
+/** With wider windows, as a share of the image, most matches would be wrong. */
+constexpr double widest_window = 0.25;
+constexpr int fewest_aligned = 15;
 /** Of all matches, for a pose that no landmark confirms. */
 constexpr double least_agreement = 0.5;
 
@@ -206,7 +212,7 @@ std::optional<LocatedFrame> Tracker::trackLocalMap(Frame& frame, const SE3& T_ca
                                                    PoseKernel kernel) {
     LocatedFrame located;
     located.landmarks = landmarks;
-    searchLocalLandmarks(frame, T_cam_world, located.landmarks);
+    located.expected = searchLocalLandmarks(frame, T_cam_world, located.landmarks);
     if (options_.tracker.align_keypoints) {
         alignKeypoints(frame, located.landmarks, T_cam_world, camera_, map_);
     }
@@ -215,6 +221,7 @@ std::optional<LocatedFrame> Tracker::trackLocalMap(Frame& frame, const SE3& T_ca
     if (solution.inliers < options_.tracker.min_inliers) return std::nullopt;
     located.T_cam_world = solution.T_cam_world;
     located.inliers = solution.inliers;
+    located.information = solution.information;
     for (std::size_t m = 0; m < found.keypoints.size(); ++m) {
         const int keypoint = found.keypoints[m];
         int& landmark = located.landmarks[keypoint];
@@ -240,9 +247,16 @@ std::vector<int> Tracker::localLandmarks(const std::vector<int>& matched) {
     if (static_cast<int>(keyframes.size()) > options_.tracker.max_local_keyframes) {
         keyframes.resize(options_.tracker.max_local_keyframes);
     }
+    std::vector<int> numbers;
+    for (const Covisibility& c : keyframes) numbers.push_back(c.keyframe);
+    return landmarksOf(numbers);
+}
+
+/** Without those that this search has visited. */
+std::vector<int> Tracker::landmarksOf(const std::vector<int>& keyframes) {
     std::vector<int> local;
-    for (const Covisibility& c : keyframes) {
-        for (const int landmark : map_.keyframe(c.keyframe).landmarks) {
+    for (const int keyframe : keyframes) {
+        for (const int landmark : map_.keyframe(keyframe).landmarks) {
             if (landmark == no_landmark || visited_[landmark] == search_) continue;
             visited_[landmark] = search_;
             local.push_back(landmark);
@@ -251,14 +265,80 @@ std::vector<int> Tracker::localLandmarks(const std::vector<int>& matched) {
     return local;
 }
 
-void Tracker::searchLocalLandmarks(const Frame& frame, const SE3& T_cam_world,
-                                   std::vector<int>& landmarks) {
+std::optional<LocatedFrame> Tracker::trackAround(Frame& frame, const ExpectedPose& expected,
+                                                 const std::vector<int>& keyframes) {
+    std::vector<int> landmarks(frame.keypoints.size(), no_landmark);
+    const auto aligned = alignAround(frame, expected, keyframes, landmarks);
+    if (!aligned) return std::nullopt;
+    return trackLocalMap(frame, *aligned, landmarks);
+}
+
+/** \param landmarks of the keypoints that agree with the pose */
+std::optional<SE3> Tracker::alignAround(const Frame& frame, const ExpectedPose& expected,
+                                        const std::vector<int>& keyframes,
+                                        std::vector<int>& landmarks) {
+    std::vector<std::pair<int, int>> pairs;
+    std::vector<PointMatch> matches;
+    std::vector<Eigen::Vector3d> points_cam;
+    for (const auto& [keypoint, id] : matchAround(frame, expected, keyframes)) {
+        const Keypoint& k = frame.keypoints[keypoint];
+        if (k.depth_m <= 0) continue;
+        pairs.emplace_back(keypoint, id);
+        matches.push_back({map_.landmark(id).position,
+                           measurementOf(k, map_.scaleOf(k.octave), options_.sensor)});
+        points_cam.push_back(camera_.unproject(k.u, k.v, k.depth_m));
+    }
+    if (static_cast<int>(matches.size()) < fewest_aligned) return std::nullopt;
+    const auto aligned =
+        alignRobustly(camera_, matches, points_cam, options_.loops.ransac_iterations, 0);
+    if (!aligned || aligned->inliers < fewest_aligned) return std::nullopt;
+    for (std::size_t m = 0; m < pairs.size(); ++m) {
+        if (aligned->inlier[m]) landmarks[pairs[m].first] = pairs[m].second;
+    }
+    return solvePose(camera_, matches, aligned->T_cam_world).T_cam_world;
+}
+
+/** \return (keypoint, landmark) */
+std::vector<std::pair<int, int>> Tracker::matchAround(const Frame& frame,
+                                                      const ExpectedPose& expected,
+                                                      const std::vector<int>& keyframes) {
+    ++search_;
+    visited_.resize(map_.landmarks().size(), 0);
+    MatchTable table(frame);
+    const Eigen::Vector3d position = expected.T_cam_world.inverse().t;
+    for (const int id : landmarksOf(keyframes)) {
+        const Landmark& landmark = map_.landmark(id);
+        const Eigen::Vector3d p = expected.T_cam_world * landmark.position;
+        if (p.z() < nearest_depth_m) continue;
+        const double uncertain_px =
+            window_sigmas * camera_.fx * (expected.sigma_m / p.z() + expected.sigma_rad);
+        if (uncertain_px > widest_window * camera_.width) continue;
+        const Eigen::Vector2d pixel = camera_.project(p);
+        if (!camera_.contains(pixel)) continue;
+        const int octave = map_.expectedOctave(landmark, (position - landmark.position).norm());
+        if (octave < -1 || octave > map_.levels()) continue;
+        const double scale = map_.scaleOf(std::clamp(octave, 0, map_.levels() - 1));
+        const auto radius =
+            static_cast<float>(options_.tracker.map_window_px * scale + uncertain_px);
+        table.search(id, landmark.descriptor,
+                     {static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), radius,
+                      octave - 1, octave + 1},
+                     options_.tracker.max_hamming, map_match_ratio);
+    }
+    return table.matches();
+}
+
+/** \return how many landmarks the pose puts into the image */
+int Tracker::searchLocalLandmarks(const Frame& frame, const SE3& T_cam_world,
+                                  std::vector<int>& landmarks) {
+    int expected = 0;
     const Eigen::Vector3d camera_position = T_cam_world.inverse().t;
     MatchTable table(frame);
     for (std::size_t i = 0; i < landmarks.size(); ++i) {
         if (landmarks[i] == no_landmark) continue;
         table.reserve(static_cast<int>(i));
         ++map_.landmark(landmarks[i]).times_expected;
+        ++expected;
     }
     for (const int id : localLandmarks(landmarks)) {
         Landmark& landmark = map_.landmark(id);
@@ -272,6 +352,7 @@ void Tracker::searchLocalLandmarks(const Frame& frame, const SE3& T_cam_world,
         const int octave = map_.expectedOctave(landmark, distance);
         if (octave < -1 || octave > map_.levels()) continue;
         ++landmark.times_expected;
+        ++expected;
         const int clamped = std::clamp(octave, 0, map_.levels() - 1);
         const auto radius =
             static_cast<float>(options_.tracker.map_window_px * map_.scaleOf(clamped));
@@ -281,6 +362,7 @@ void Tracker::searchLocalLandmarks(const Frame& frame, const SE3& T_cam_world,
                      options_.tracker.max_hamming, map_match_ratio);
     }
     for (const auto& [keypoint, landmark] : table.matches()) landmarks[keypoint] = landmark;
+    return expected;
 }
 
 }  // namespace rgbd_graphslam

@@ -17,6 +17,8 @@ const char* toString(FrameOrigin origin) {
             return "recovered";
         case FrameOrigin::Weak:
             return "weak";
+        case FrameOrigin::Uncertain:
+            return "uncertain";
         case FrameOrigin::Lost:
             break;
     }
@@ -54,7 +56,10 @@ std::vector<PoseEdge> VisualSlam::findLoops(int keyframe) {
     impl_->times.measure("find-loops", [&] { loops = impl_->closer.findLoops(keyframe); });
     // What comes next asks where keyframes are, and adjusts everything anew.
     if (!loops.empty()) impl_->handOverAll();
-    for (const PoseEdge& loop : loops) impl_->join(loop);
+    for (const PoseEdge& loop : loops) {
+        impl_->join(loop);
+        impl_->uncertainty.closeLoop(loop.from, loop.to);
+    }
     return loops;
 }
 
@@ -84,7 +89,7 @@ void VisualSlam::finish() {
 }
 
 std::vector<TrackedFrame> VisualSlam::frames() const {
-    return impl_->records.views(impl_->map);
+    return impl_->records.views(impl_->map, impl_->uncertainty);
 }
 
 std::vector<KeyframeView> VisualSlam::keyframes() const {

@@ -21,6 +21,7 @@ void VisualSlam::Implementation::restore(MapSnapshot snapshot, MapUse use) {
     times.measure("place-index", [&] { closer.restore(std::move(snapshot.loops)); });
     decision.reset(map.keyframes().back());
     if (use == MapUse::Localise) map.hold();
+    uncertainty.restore(map.keyframes().size());
     link = Link::None;
 }
 
@@ -31,8 +32,10 @@ void VisualSlam::Implementation::save(ByteWriter& out) const {
     full_adjuster.save(out);
     closer.save(out);
     weak_motion.save(out);
+    relocalizer.save(out);
     decision.save(out);
     records.save(out);
+    uncertainty.save(out);
     for (const int number : {frames_since_keyframe, frames_since_loop}) {
         out.put<std::int32_t>(number);
     }
@@ -46,9 +49,11 @@ void VisualSlam::Implementation::load(ByteReader& in) {
     mapper.load(in);
     full_adjuster.load(in);
     closer.load(in);
-    weak_motion.load(in, builder.viewCamera());
+    weak_motion.load(in, camera, builder.viewCamera(), map.levels());
+    relocalizer.load(in);
     decision.load(in, map.keyframes().size());
     records.load(in, map.keyframes().size());
+    uncertainty.load(in, map.keyframes().size());
     for (int* number : {&frames_since_keyframe, &frames_since_loop}) {
         *number = getTally(in);
     }
@@ -75,7 +80,7 @@ TrackedFrame VisualSlam::Implementation::track(Frame frame) {
         }
     }
     records.add(record);
-    return record.view(map);
+    return record.view(map, uncertainty);
 }
 
 /** The first frame with enough depth becomes the origin of the world. */
@@ -84,34 +89,67 @@ void VisualSlam::Implementation::start(Frame frame, KeptFrame& record) {
     beginAnew(std::move(frame), record);
 }
 
+/** Nothing before any frame of this run has been located. */
+std::optional<Prediction> VisualSlam::Implementation::prediction(const Frame& frame) const {
+    if (!placed) return std::nullopt;
+    const SE3 T_cam_world = weak_motion.guess(frame).inverse() * records.lastPose(map);
+    return Prediction{T_cam_world, map.keyframe(records.lastReference()).part,
+                      weak_motion.priorAt(frame)};
+}
+
+/** \param record its origin tells how far the pose is believed, or that it is doubted altogether */
+std::optional<LocatedFrame> VisualSlam::Implementation::trackBelievably(Frame& frame,
+                                                                        KeptFrame& record) {
+    record.origin = FrameOrigin::Lost;
+    const std::vector<Keypoint> keypoints = frame.keypoints;
+    auto located = tracker.track(frame);
+    if (!located) return located;
+    record.origin = FrameOrigin::Tracked;
+    const auto predicted = prediction(frame);
+    if (!predicted) return located;
+    const Verdict verdict =
+        judge(*located, predicted->T_cam_world * located->T_cam_world.inverse(), predicted->prior);
+    if (verdict == Verdict::Believed) return located;
+    record.origin = FrameOrigin::Uncertain;
+    if (verdict == Verdict::Uncertain) return located;
+    frame.keypoints = keypoints;
+    return std::nullopt;
+}
+
 std::optional<LocatedFrame> VisualSlam::Implementation::locate(Frame& frame, KeptFrame& record) {
     std::optional<LocatedFrame> located;
-    times.measure("track", [&] { located = tracker.track(frame); });
-    record.origin = FrameOrigin::Tracked;
+    times.measure("track", [&] { located = trackBelievably(frame, record); });
     if (located) return located;
     handOver();
-    times.measure("relocalise", [&] { located = closer.relocalise(frame, tracker); });
-    record.origin = FrameOrigin::Recovered;
+    times.measure("relocalise", [&] { located = relocalizer.find(frame, prediction(frame)); });
     if (!located) return located;
+    record.origin = FrameOrigin::Recovered;
     tracker.forget();
     link = Link::None;
     return located;
 }
 
 void VisualSlam::Implementation::keep(Frame frame, LocatedFrame located, KeptFrame& record) {
-    weak_motion.restart(frame,
-                        placed ? records.lastPose(map) * located.T_cam_world.inverse() : SE3());
+    relocalizer.forget();
+    const SE3 T_last_cam = placed ? records.lastPose(map) * located.T_cam_world.inverse() : SE3();
+    const bool believed = record.origin != FrameOrigin::Uncertain;
+    if (believed) {
+        weak_motion.restart(frame, T_last_cam);
+    } else {
+        weak_motion.goOn(frame, T_last_cam);
+    }
     placed = true;
     int reference = map.observers(located.landmarks).front().keyframe;
     const bool proves_a_place = record.origin == FrameOrigin::Recovered;
-    if (decision.wants(map, located, frames_since_keyframe) || proves_a_place) {
+    if (believed && (decision.wants(map, located, frames_since_keyframe) || proves_a_place)) {
         handOver();
         if (decision.reference() != map.keyframes().back().id) link = Link::None;
-        reference = insertKeyframe(frame, located, map.keyframe(reference).part);
+        reference = insertKeyframe(frame, located, map.keyframe(reference).part, reference, {});
         record.keyframe = reference;
         located.landmarks = map.keyframe(reference).landmarks;
     }
     record.inliers = located.inliers;
+    record.covariance = packed(covarianceAgainstMap(located));
     record.reference_keyframe = reference;
     record.T_cam_reference = located.T_cam_world * map.T_cam_world(reference).inverse();
     tracker.setLast(std::move(frame), std::move(located), reference, true);
@@ -123,14 +161,20 @@ void VisualSlam::Implementation::stray(Frame frame, KeptFrame& record) {
     if (placed && options.recovery.weak_motion) {
         times.measure("weak-motion",
                       [&] { T_last_cam = weak_motion.follow(frame, records.lastPose(map)); });
+    } else {
+        weak_motion.miss(frame);
     }
-    record.origin = T_last_cam ? FrameOrigin::Weak : FrameOrigin::Lost;
+    const bool doubted = record.origin == FrameOrigin::Uncertain;
+    record.origin = !T_last_cam ? FrameOrigin::Lost
+                    : doubted   ? FrameOrigin::Uncertain
+                                : FrameOrigin::Weak;
     if (T_last_cam && link == Link::Tracked) link = Link::Weak;
     SE3 T_cam_world = T_last_cam.value_or(SE3()).inverse() * records.lastPose(map);
     // Inverses that are transposes double the rounding error of a chain with each link.
     T_cam_world.R = orthonormalised(T_cam_world.R);
     record.reference_keyframe = records.lastReference();
     record.T_cam_reference = T_cam_world * map.T_cam_world(record.reference_keyframe).inverse();
+    record.covariance = packed(covarianceOf(weak_motion.prior().spread()));
     if (weak_motion.shouldBeginAnew(frame, T_last_cam || !placed)) {
         return beginAnew(std::move(frame), record);
     }
@@ -143,18 +187,21 @@ void VisualSlam::Implementation::stray(Frame frame, KeptFrame& record) {
  *  its own. */
 void VisualSlam::Implementation::beginAnew(Frame frame, KeptFrame& record) {
     handOver();
-    const bool tied = record.origin == FrameOrigin::Weak;
+    const bool tied = record.origin == FrameOrigin::Weak || record.origin == FrameOrigin::Uncertain;
     link = tied ? Link::Weak : Link::None;
     const int new_part = static_cast<int>(map.keyframes().size());
     LocatedFrame located;
     located.landmarks.assign(frame.keypoints.size(), no_landmark);
     if (!map.keyframes().empty()) located.T_cam_world = record.T_cam_world(map);
+    const PoseSpread reckoned = tied ? weak_motion.prior().spread() : PoseSpread();
     const int id = insertKeyframe(frame, located,
-                                  tied ? map.keyframe(record.reference_keyframe).part : new_part);
+                                  tied ? map.keyframe(record.reference_keyframe).part : new_part,
+                                  record.reference_keyframe, reckoned);
     located.landmarks = map.keyframe(id).landmarks;
     if (!tied) record.origin = FrameOrigin::Tracked;
     record.keyframe = record.reference_keyframe = id;
     record.T_cam_reference = SE3();
+    record.covariance = packed(covarianceOf({}));
     record.inliers =
         static_cast<int>(std::count_if(located.landmarks.begin(), located.landmarks.end(),
                                        [](int l) { return l != no_landmark; }));
@@ -177,8 +224,13 @@ void VisualSlam::Implementation::join(const PoseEdge& loop) {
 }
 
 int VisualSlam::Implementation::insertKeyframe(const Frame& frame, const LocatedFrame& located,
-                                               int part) {
+                                               int part, int reference,
+                                               const PoseSpread& reckoned) {
     int id = 0;
+    const SE3 T_cam_reference = map.keyframes().empty()
+                                    ? SE3()
+                                    : located.T_cam_world * map.T_cam_world(reference).inverse();
+    uncertainty.add(reference, T_cam_reference, reckoned);
     times.measure("map", [&] {
         id = map.addKeyframe(frame, located.T_cam_world, part, link);
         map.addObservations(located.landmarks, id);

@@ -5,6 +5,8 @@
 #include "kept_frames.h"
 #include "keyframe_decision.h"
 #include "keyframe_edges.h"
+#include "pose_verdict.h"
+#include "relocalizer.h"
 #include "rgbd_graphslam/features/frame_builder.h"
 #include "rgbd_graphslam/slam/full_adjuster.h"
 #include "rgbd_graphslam/slam/local_mapper.h"
@@ -30,6 +32,7 @@ class VisualSlam::Implementation {
           closer(options, camera, map),
           edges(options.sensor, camera, map),
           weak_motion(options.recovery, tracker),
+          relocalizer(options, camera, map, closer, tracker),
           decision(options.keyframes) {}
 
     /** Starts from a map. \throws Error when it does not fit the options or the camera */
@@ -57,8 +60,10 @@ class VisualSlam::Implementation {
     LoopCloser closer;
     const KeyframeEdges edges;
     WeakMotion weak_motion;
+    Relocalizer relocalizer;
     KeyframeDecision decision;
     KeptFrames records;
+    MapUncertainty uncertainty;
     int frames_since_keyframe = 0;
     int frames_since_loop = 0;
     /** Of the next keyframe to the last one. */
@@ -69,11 +74,14 @@ class VisualSlam::Implementation {
 
   private:
     void start(Frame frame, KeptFrame& record);
+    std::optional<Prediction> prediction(const Frame& frame) const;
+    std::optional<LocatedFrame> trackBelievably(Frame& frame, KeptFrame& record);
     std::optional<LocatedFrame> locate(Frame& frame, KeptFrame& record);
     void keep(Frame frame, LocatedFrame located, KeptFrame& record);
     void stray(Frame frame, KeptFrame& record);
     void beginAnew(Frame frame, KeptFrame& record);
-    int insertKeyframe(const Frame& frame, const LocatedFrame& located, int part);
+    int insertKeyframe(const Frame& frame, const LocatedFrame& located, int part, int reference,
+                       const PoseSpread& reckoned);
 };
 
 }  // namespace rgbd_graphslam

@@ -50,21 +50,6 @@ DenseView getView(ByteReader& in, const Camera& expected) {
     return view;
 }
 
-void put(const DeadReckoning& reckoning, ByteWriter& out) {
-    const auto& [T_odometry_cam, R_gyroscope_cam] = reckoning;
-    putFlag(T_odometry_cam.has_value(), out);
-    if (T_odometry_cam) encodePose(*T_odometry_cam, out);
-    putFlag(R_gyroscope_cam.has_value(), out);
-    if (R_gyroscope_cam) encodePose({*R_gyroscope_cam, Eigen::Vector3d::Zero()}, out);
-}
-
-DeadReckoning getReckoning(ByteReader& in) {
-    DeadReckoning reckoning;
-    if (getFlag(in)) reckoning.T_odometry_cam = decodePose(in);
-    if (getFlag(in)) reckoning.R_gyroscope_cam = decodePose(in).R;
-    return reckoning;
-}
-
 }  // namespace
 
 void WeakTracker::restart(const Frame& frame, const SE3& T_last_cam) {
@@ -96,12 +81,12 @@ void WeakTracker::load(ByteReader& in, const Camera& view_camera) {
     for (double* stamp_s : {&last_stamp_s_, &last_fixed_s_}) *stamp_s = getFinite(in);
 }
 
-std::optional<SE3> WeakTracker::follow(const Frame& frame) {
+std::optional<SE3> WeakTracker::follow(const Frame& frame, const PossibleMotion& possible) {
     const auto predicted = predictedMotion(frame);
     std::optional<SE3> T_last_cam;
     if (predicted || frame.stamp_s - last_stamp_s_ < longest_blind_s) {
-        T_last_cam = alignWithAnchor(frame, guess(frame));
-        if (!T_last_cam) T_last_cam = alignWithAnchor(frame, SE3());
+        T_last_cam = alignWithAnchor(frame, guess(frame), possible);
+        if (!T_last_cam) T_last_cam = alignWithAnchor(frame, SE3(), possible);
     }
     if (T_last_cam) {
         last_fixed_s_ = frame.stamp_s;
@@ -125,12 +110,14 @@ SE3 WeakTracker::guess(const Frame& frame) const {
     return predictedMotion(frame).value_or(moving ? motion_ : SE3());
 }
 
-std::optional<SE3> WeakTracker::alignWithAnchor(const Frame& frame, const SE3& T_last_cam_guess) {
+std::optional<SE3> WeakTracker::alignWithAnchor(const Frame& frame, const SE3& T_last_cam_guess,
+                                                const PossibleMotion& possible) {
     if (!anchor_.valid() || !frame.view.valid()) return std::nullopt;
     const auto aligned =
         alignDensely(anchor_.get(), frame.view.get(), T_anchor_last_ * T_last_cam_guess);
     if (!aligned) return std::nullopt;
     const SE3 T_last_cam = T_anchor_last_.inverse() * aligned->T_reference_view;
+    if (!possible(T_last_cam)) return std::nullopt;
     T_anchor_last_ = {orthonormalised(aligned->T_reference_view.R), aligned->T_reference_view.t};
     if (aligned->overlap < anchor_overlap) {
         anchor_ = frame.view;

@@ -278,6 +278,47 @@ TEST(VisualSlam, odometryTiesFramesWhileTheCameraIsCovered) {
     }
 }
 
+Frame coveredFrame(const Camera& camera, double stamp_s) {
+    Frame frame;
+    frame.grid = KeypointGrid({}, camera.width, camera.height);
+    frame.stamp_s = stamp_s;
+    return frame;
+}
+
+/** Along a wall that repeats every 1.6 m; the lens is covered while the robot drives on into what
+ *  it has not seen yet, which looks like what it has. */
+TEST(VisualSlam, aPlaceThatLooksAlikeIsNotBelievedAgainstTheWheels) {
+    auto world = SyntheticWorld::repeatingWall(1.6, 12);
+    const Camera camera;
+    VisualSlam slam(SlamOptions{}, camera);
+    for (int i = 0; i < 260; ++i) {
+        const SE3 truth(Eigen::Matrix3d::Identity(), Eigen::Vector3d(3 + 0.02 * i, 0, 0));
+        const bool covered = i >= 60 && i < 180;
+        Frame frame =
+            covered ? coveredFrame(camera, i / 30.0) : world.view(truth, i / 30.0, camera);
+        frame.reckoning.T_odometry_cam =
+            SE3(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0.0202 * i, 0, 0));
+        const TrackedFrame tracked = slam.track(std::move(frame));
+        EXPECT_NE(tracked.origin, FrameOrigin::Lost) << i;
+        EXPECT_LT((tracked.T_world_cam.t - Eigen::Vector3d(0.02 * i, 0, 0)).norm(), 0.05) << i;
+    }
+}
+
+/** Corners that noise makes before something flat are no scene to go on from. */
+TEST(VisualSlam, makesNoMapOfNoise) {
+    SyntheticWorld world;
+    const Camera camera;
+    VisualSlam slam(SlamOptions{}, camera);
+    for (int i = 0; i < 30; ++i) slam.track(world.view(onCircle(0.01 * i), i / 30.0, camera));
+    const std::size_t keyframes = slam.keyframes().size();
+    for (int i = 30; i < 90; ++i) {
+        SyntheticWorld noise(12000, i);
+        const TrackedFrame tracked = slam.track(noise.view(onCircle(0.3), i / 30.0, camera));
+        EXPECT_EQ(tracked.origin, FrameOrigin::Lost) << i;
+    }
+    EXPECT_EQ(slam.keyframes().size(), keyframes);
+}
+
 /** A map of part of the circle, and the world it was made in. */
 struct MappedWorld {
     SyntheticWorld world{24000};

@@ -36,6 +36,12 @@ struct RpeRequest : TrajectoryRequest {
 };
 std::string runRpe(const RpeRequest& request);
 
+struct ConsistencyRequest {
+    std::string run_folder, truth;  // the truth: TUM text file or .rawlog
+    ReportFormat format = ReportFormat::Text;
+};
+std::string runConsistency(const ConsistencyRequest& request);
+
 struct AssociateRequest {
     std::string first, second;  // lists
     AssociationOptions options;

@@ -43,7 +43,7 @@ struct ReportedLoop {
 
 /** What came of a job. */
 struct JobReport {
-    std::size_t frames = 0, tracked = 0, recovered = 0, weak = 0, lost = 0;
+    std::size_t frames = 0, tracked = 0, recovered = 0, weak = 0, uncertain = 0, lost = 0;
     /** With a pose, but in a part of the map whose place is unknown; they count above, too. */
     std::size_t apart = 0;
     /** Frames left out because their stamp was not later than the one before. */

@@ -9,7 +9,7 @@
 
 namespace rgbd_graphslam {
 
-enum class FrameState { Tracked, Recovered, Weak, Lost };
+enum class FrameState { Tracked, Recovered, Weak, Uncertain, Lost };
 
 /** A line of frames.csv. */
 struct FrameRecord {

@@ -31,8 +31,8 @@ class LoopCloser {
      *  \return edges from the earlier keyframe to this one */
     std::vector<PoseEdge> findLoops(int keyframe);
 
-    /** Finds a frame anywhere in the map, without any idea of its pose. */
-    std::optional<LocatedFrame> relocalise(Frame& frame, Tracker& tracker) const;
+    /** Living keyframes anywhere in the map that look like a frame, the likeliest first. */
+    std::vector<int> placesLike(const Frame& frame, int most) const;
 
     /** Moves keyframes, and landmarks with the keyframe that saw them last; then fuses what the
      *  loops since the last call brought together.

@@ -45,6 +45,9 @@ void encodePose(const SE3& pose, ByteWriter& out);
 /** \throws DamagedBytes when the bytes are no rigid motion */
 SE3 decodePose(ByteReader& in);
 
+void put(const DeadReckoning& reckoning, ByteWriter& out);
+DeadReckoning getReckoning(ByteReader& in);
+
 void put(const Descriptor& descriptor, ByteWriter& out);
 Descriptor getDescriptor(ByteReader& in);
 

@@ -1,6 +1,7 @@
 /** Pose of each new frame against the map. */
 #pragma once
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "rgbd_graphslam/slam/feature_view.h"
@@ -15,6 +16,18 @@ struct LocatedFrame {
     /** One a keypoint: the landmark it shows, or no_landmark. */
     std::vector<int> landmarks;
     int inliers = 0;
+    /** Landmarks of the local map that the pose puts into the image. */
+    int expected = 0;
+    /** Inverse covariance of the pose's left perturbation (m, rad in the camera frame) by the
+     *  inliers, as if their errors were independent; zero where the pose comes from elsewhere. */
+    Matrix6d information = Matrix6d::Zero();
+};
+
+/** Where a frame is expected to be. */
+struct ExpectedPose {
+    SE3 T_cam_world;
+    /** Standard deviations of its position and rotation. */
+    double sigma_m = 0, sigma_rad = 0;
 };
 
 /** Frame-to-frame prediction, then the local map. Keeps the last frame; all that it remembers is
@@ -41,6 +54,12 @@ class Tracker {
     std::optional<LocatedFrame> trackLocalMap(Frame& frame, const SE3& T_cam_world,
                                               const std::vector<int>& landmarks,
                                               PoseKernel kernel = PoseKernel::Huber);
+
+    /** Searches the landmarks of some keyframes around a pose that dead reckoning tells, in windows
+     *  as wide as it is uncertain, aligns the points by RANSAC and goes on as trackLocalMap().
+     *  \return nothing when too few agree, or when the windows would be too wide to tell much */
+    std::optional<LocatedFrame> trackAround(Frame& frame, const ExpectedPose& expected,
+                                            const std::vector<int>& keyframes);
 
     /** Tells where the last frame was, after track() or other means.
      *  \param reference_keyframe that the pose is tied to
@@ -70,8 +89,13 @@ class Tracker {
     std::vector<int> matchLast(const Frame& frame, const SE3& predicted, double window_px,
                                PoseSolution& solution) const;
     std::vector<int> localLandmarks(const std::vector<int>& matched);
-    void searchLocalLandmarks(const Frame& frame, const SE3& T_cam_world,
-                              std::vector<int>& landmarks);
+    std::vector<int> landmarksOf(const std::vector<int>& keyframes);
+    int searchLocalLandmarks(const Frame& frame, const SE3& T_cam_world,
+                             std::vector<int>& landmarks);
+    std::vector<std::pair<int, int>> matchAround(const Frame& frame, const ExpectedPose& expected,
+                                                 const std::vector<int>& keyframes);
+    std::optional<SE3> alignAround(const Frame& frame, const ExpectedPose& expected,
+                                   const std::vector<int>& keyframes, std::vector<int>& landmarks);
 
     const SlamOptions& options_;
     const Camera& camera_;

@@ -28,9 +28,11 @@ enum class FrameOrigin {
     Weak,
     /** Not at all; the pose is the last one known. */
     Lost,
+    /** Landmarks are seen, but too few or too far from what the motion allows to be believed. */
+    Uncertain,
 };
 
-/** "tracked", "recovered", "weak" or "lost". */
+/** "tracked", "recovered", "weak", "lost" or "uncertain". */
 const char* toString(FrameOrigin origin);
 
 /** The answer to one frame. */
@@ -38,6 +40,9 @@ struct TrackedFrame {
     double stamp_s = 0;
     FrameOrigin origin = FrameOrigin::Lost;
     SE3 T_world_cam;
+    /** Of the camera's position (m) along and its rotation (rad) about the axes of its optical
+     *  frame, in the world that the first keyframe defines; nothing when lost. */
+    std::optional<Matrix6d> covariance;
     /** Landmarks that agreed with the pose. */
     int inliers = 0;
     /** Keyframe this frame's pose is stored relative to. */

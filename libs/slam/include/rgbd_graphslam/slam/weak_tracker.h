@@ -1,5 +1,6 @@
 /** Where a frame is when no landmark can tell. */
 #pragma once
+#include <functional>
 #include <future>
 #include <optional>
 
@@ -7,6 +8,9 @@
 #include "rgbd_graphslam/features/frame.h"
 
 namespace rgbd_graphslam {
+
+/** Whether other sensors allow a motion T_last_cam. */
+using PossibleMotion = std::function<bool(const SE3& T_last_cam)>;
 
 /** Follows the camera from frame to frame by whole images, by the robot's odometry or by a
  * gyroscope, whichever comes first to work. The poses drift; they are a stopgap until places are
@@ -18,8 +22,11 @@ class WeakTracker {
     void restart(const Frame& frame, const SE3& T_last_cam);
 
     /** \return T_last_cam, the motion since the last frame that restart() or follow() knew; nothing
-     *          when no means works, after which the next frame is tried against the same one */
-    std::optional<SE3> follow(const Frame& frame);
+     *          when no means works, after which the next frame is tried against the same one
+     *  \param possible asked about what images say, which something in front of the lens may fool
+     */
+    std::optional<SE3> follow(
+        const Frame& frame, const PossibleMotion& possible = [](const SE3&) { return true; });
 
     /** What coming frames depend on. */
     void save(ByteWriter& out) const;
@@ -32,7 +39,8 @@ class WeakTracker {
 
   private:
     std::optional<SE3> predictedMotion(const Frame& frame) const;
-    std::optional<SE3> alignWithAnchor(const Frame& frame, const SE3& T_last_cam_guess);
+    std::optional<SE3> alignWithAnchor(const Frame& frame, const SE3& T_last_cam_guess,
+                                       const PossibleMotion& possible);
     bool gyroscopeServes(const Frame& frame) const;
     void accept(const Frame& frame, const SE3& T_last_cam);
 

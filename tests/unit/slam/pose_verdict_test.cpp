@@ -1,0 +1,94 @@
+#include "../../../libs/slam/src/pose_verdict.h"
+
+#include <gtest/gtest.h>
+
+#include "../../../libs/slam/src/pose_uncertainty.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+SE3 off(double m, double rad = 0) {
+    return {rotationExp({0, rad, 0}), Eigen::Vector3d(m, 0, 0)};
+}
+
+Frame at(double stamp_s) {
+    Frame frame;
+    frame.stamp_s = stamp_s;
+    return frame;
+}
+
+/** A camera that was seen at rest a thirtieth of a second ago. */
+MotionPrior aFrameLater() {
+    MotionPrior prior;
+    prior.restart(at(1), SE3());
+    prior.advance(at(1 + 1 / 30.0), SE3(), MotionPrior::Source::Inertia);
+    return prior;
+}
+
+LocatedFrame locatedBy(int inliers, double sigma_m = 0.002, double sigma_rad = 0.001) {
+    LocatedFrame located;
+    located.inliers = inliers;
+    located.information.diagonal().head<3>().setConstant(1 / (sigma_m * sigma_m));
+    located.information.diagonal().tail<3>().setConstant(1 / (sigma_rad * sigma_rad));
+    return located;
+}
+
+TEST(PoseVerdict, noHandMovesACameraHalfAMeterInAFrame) {
+    const MotionPrior prior = aFrameLater();
+    EXPECT_EQ(judge(locatedBy(40), off(0.48), prior), Verdict::Rejected);
+    EXPECT_EQ(judge(locatedBy(400), off(0.48), prior), Verdict::Rejected);
+    EXPECT_EQ(judge(locatedBy(40), off(0.01), prior), Verdict::Believed);
+    EXPECT_EQ(judge(locatedBy(400), off(0, 1), prior), Verdict::Rejected);
+}
+
+TEST(PoseVerdict, fewLandmarksMustAgreeWithTheMotion) {
+    const MotionPrior prior = aFrameLater();
+    EXPECT_EQ(judge(locatedBy(40), off(0.16), prior), Verdict::Rejected);
+    EXPECT_EQ(judge(locatedBy(400), off(0.16), prior), Verdict::Believed);
+}
+
+TEST(PoseVerdict, aDirectionThatIsOpenLeavesItUncertain) {
+    LocatedFrame sliding = locatedBy(60);
+    sliding.information(0, 0) = 1 / (0.1 * 0.1);
+    EXPECT_EQ(judge(sliding, SE3(), aFrameLater()), Verdict::Uncertain);
+    LocatedFrame turning = locatedBy(60);
+    turning.information(4, 4) = 1 / (0.1 * 0.1);
+    EXPECT_EQ(judge(turning, SE3(), aFrameLater()), Verdict::Uncertain);
+}
+
+/** The open direction is found though no axis shows it alone. */
+TEST(PoseVerdict, theWeakestDirectionNeedNotBeAnAxis) {
+    const Eigen::Vector3d along = Eigen::Vector3d(1, 1, 1).normalized();
+    LocatedFrame sliding = locatedBy(60);
+    sliding.information.topLeftCorner<3, 3>() -=
+        (1 / (0.002 * 0.002) - 1 / (0.1 * 0.1)) * along * along.transpose();
+    EXPECT_NEAR(weakestDirection(covarianceAgainstMap(sliding)).m /
+                    weakestDirection(covarianceAgainstMap(locatedBy(60, 0.1))).m,
+                1, 1e-3);
+    EXPECT_EQ(judge(sliding, SE3(), aFrameLater()), Verdict::Uncertain);
+}
+
+TEST(PoseVerdict, afterLongSilenceMuchIsPossible) {
+    MotionPrior prior;
+    prior.restart(at(1), SE3());
+    prior.advance(at(3), SE3(), MotionPrior::Source::None);
+    EXPECT_EQ(judge(locatedBy(400), off(2), prior), Verdict::Believed);
+}
+
+TEST(MapUncertainty, growsAlongTheWayAndShrinksByLoops) {
+    MapUncertainty uncertainty;
+    const auto sigma = [&](int keyframe) {
+        return weakestDirection(uncertainty.inWorld(Matrix6d::Zero(), keyframe)).m;
+    };
+    uncertainty.add(0, SE3(), {});
+    for (int i = 1; i < 50; ++i) uncertainty.add(i - 1, off(0.2), {});
+    EXPECT_LT(sigma(0), sigma(10));
+    EXPECT_LT(sigma(10), sigma(49));
+    uncertainty.add(49, off(1), {0.05, 0.01});  // blind
+    EXPECT_GT(sigma(50), 0.05);
+    uncertainty.closeLoop(10, 50);
+    EXPECT_EQ(sigma(50), sigma(10));
+}
+
+}  // namespace
+}  // namespace rgbd_graphslam
