@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "rgbd_graphslam/slam/map_encoding.h"
+#include "rgbd_graphslam/slam/weak_tracker.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -33,10 +34,6 @@ constexpr double forgetting = 0.3;
 constexpr PoseSpread slack{0.03, 0.03};
 constexpr double slack_share = 0.3;
 
-SE3 step(const SE3& before, const SE3& now) {
-    return before.inverse() * now;
-}
-
 }  // namespace
 
 void MotionPrior::restart(const Frame& frame, const SE3& T_last_cam) {
@@ -55,14 +52,14 @@ void MotionPrior::restart(const Frame& frame, const SE3& T_last_cam) {
 void MotionPrior::advance(const Frame& frame, const SE3& T_last_cam, Source source) {
     const double way_m = T_last_cam.t.norm(), turn_rad = T_last_cam.angle();
     const double passed_s = std::max(0.0, frame.stamp_s - last_stamp_s_);
-    if (wheelsTell(frame)) {
+    if (source != Source::InertiaAlone && wheelsTell(frame)) {
         const double error = std::max(least_wheel_error, wheel_error_);
         spread_.m += (error + spread_.rad) * way_m;
         spread_.rad += error * turn_rad;
     } else if (source == Source::Images) {
         spread_.m += image_step.m + (image_error + spread_.rad) * way_m;
         spread_.rad += image_step.rad + image_error * turn_rad;
-    } else if (source == Source::Inertia && passed_s < longest_inertia_s) {
+    } else if (source != Source::None && passed_s < longest_inertia_s) {
         spread_.m += 0.5 * acceleration.m * passed_s * passed_s;
         spread_.rad += 0.5 * acceleration.rad * passed_s * passed_s;
     } else {
@@ -85,8 +82,11 @@ Agreement MotionPrior::judge(const SE3& T_predicted_cam) const {
 }
 
 bool MotionPrior::wheelsTell(const Frame& frame) const {
-    return last_.T_odometry_cam && frame.reckoning.T_odometry_cam &&
-           wheel_error_ < worst_wheel_error;
+    return wheel_error_ < worst_wheel_error && rolled(frame);
+}
+
+std::optional<SE3> MotionPrior::rolled(const Frame& frame) const {
+    return wheelMotion(last_, frame.reckoning, frame.stamp_s - last_stamp_s_);
 }
 
 bool MotionPrior::rulesOut(const Frame& frame, const SE3& T_last_cam) const {
@@ -95,10 +95,9 @@ bool MotionPrior::rulesOut(const Frame& frame, const SE3& T_last_cam) const {
     };
     const DeadReckoning& now = frame.reckoning;
     if (wheelsTell(frame)) {
-        const SE3 rolled = step(*last_.T_odometry_cam, *now.T_odometry_cam);
-        const SE3 difference = rolled.inverse() * T_last_cam;
-        return differs(difference.t.norm(), slack.m, rolled.t.norm()) ||
-               differs(difference.angle(), slack.rad, rolled.angle());
+        const SE3 by_wheels = *rolled(frame), difference = by_wheels.inverse() * T_last_cam;
+        return differs(difference.t.norm(), slack.m, by_wheels.t.norm()) ||
+               differs(difference.angle(), slack.rad, by_wheels.angle());
     }
     if (!last_.R_gyroscope_cam || !now.R_gyroscope_cam) return false;
     const Eigen::Matrix3d turned = last_.R_gyroscope_cam->transpose() * *now.R_gyroscope_cam;
@@ -108,14 +107,14 @@ bool MotionPrior::rulesOut(const Frame& frame, const SE3& T_last_cam) const {
 
 /** Both are composed over some way, so that noise of single frames does not count. */
 void MotionPrior::compareWheels(const Frame& frame, const SE3& T_last_cam) {
-    if (!last_.T_odometry_cam || !frame.reckoning.T_odometry_cam) return;
-    const SE3 rolled = step(*last_.T_odometry_cam, *frame.reckoning.T_odometry_cam);
+    const auto by_wheels = rolled(frame);
+    if (!by_wheels) return;
     seen_ = seen_ * T_last_cam;
-    rolled_ = rolled_ * rolled;
+    rolled_ = rolled_ * *by_wheels;
     const auto amount = [](const SE3& motion) {
         return motion.t.norm() + lever_m * motion.angle();
     };
-    compared_m_ += std::max(amount(T_last_cam), amount(rolled));
+    compared_m_ += std::max(amount(T_last_cam), amount(*by_wheels));
     if (compared_m_ < comparison_m) return;
     const double error = std::min(1.0, amount(rolled_.inverse() * seen_) / compared_m_);
     wheel_error_ += forgetting * (error - wheel_error_);

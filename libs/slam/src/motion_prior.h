@@ -34,6 +34,8 @@ class MotionPrior {
         Images,
         /** It goes on as before: good for a frame. */
         Inertia,
+        /** The same, though there may be wheels. */
+        InertiaAlone,
         None,
     };
 
@@ -58,6 +60,7 @@ class MotionPrior {
     void load(ByteReader& in);
 
   private:
+    std::optional<SE3> rolled(const Frame& frame) const;
     void compareWheels(const Frame& frame, const SE3& T_last_cam);
     void remember(const Frame& frame);
 

@@ -15,6 +15,8 @@ constexpr double calibration = 2.0;
 constexpr PoseSpread common_error{0.002, 0.001};
 /** Growth from keyframe to keyframe: variance per meter of way (a radian counts as one). */
 constexpr double walk_m2 = 4e-6, walk_rad2 = 1e-6;
+/** Where links are so uncertain, each adds its own variance to the map's. */
+constexpr PoseSpread poor_link{0.008, 0.004};
 constexpr double no_information = 1e-6;
 
 double square(double x) {
@@ -45,13 +47,16 @@ PoseSpread weakestDirection(const Matrix6d& covariance) {
             largest(covariance.bottomRightCorner<3, 3>())};
 }
 
-void MapUncertainty::add(int reference, const SE3& T_reference_keyframe,
-                         const PoseSpread& reckoned) {
+void MapUncertainty::add(int reference, const SE3& T_reference_keyframe, const KeyframeLink& link) {
     Variance variance;
     if (!variances_.empty()) variance = variances_[reference];
     const double way = T_reference_keyframe.t.norm() + T_reference_keyframe.angle();
-    variance.m2 += walk_m2 * way + square(reckoned.m);
-    variance.rad2 += walk_rad2 * way + square(reckoned.rad);
+    const bool reckoned = link.by == KeyframeLink::By::DeadReckoning;
+    const auto growth = [&](double sigma, double poor) {
+        return square(sigma) * (reckoned ? 1 : square(sigma / poor));
+    };
+    variance.m2 += walk_m2 * way + growth(link.spread.m, poor_link.m);
+    variance.rad2 += walk_rad2 * way + growth(link.spread.rad, poor_link.rad);
     variances_.push_back(variance);
 }
 

@@ -19,8 +19,16 @@ Matrix6d covarianceOf(const PoseSpread& spread);
 /** Standard deviations of the least certain direction, of position and of rotation. */
 PoseSpread weakestDirection(const Matrix6d& covariance);
 
+/** How uncertain a keyframe is against the one that it is tied to. */
+struct KeyframeLink {
+    enum class By { Landmarks, DeadReckoning } by = By::Landmarks;
+    /** Of the weakest direction. */
+    PoseSpread spread;
+};
+
 /** How uncertain keyframes are in the world. Uncertainty grows from keyframe to keyframe like a
- *  random walk; a keyframe that sees older ones again is as certain as these. */
+ *  random walk, faster where few landmarks hold them, as these also share few with others over
+ * which errors would average; a keyframe that sees older ones again is as certain as these. */
 class MapUncertainty {
   public:
     /** \param keyframes of a map that is taken to be certain */
@@ -29,8 +37,8 @@ class MapUncertainty {
     /** The next keyframe.
      *  \param reference that it was located by, or that dead reckoning began at
      *  \param T_reference_keyframe the motion between them
-     *  \param reckoned of the dead reckoning between them, if that is what ties them */
-    void add(int reference, const SE3& T_reference_keyframe, const PoseSpread& reckoned);
+     *  \param link by landmarks that both see, or by dead reckoning */
+    void add(int reference, const SE3& T_reference_keyframe, const KeyframeLink& link);
 
     /** A loop makes a keyframe as certain as the earlier one it sees again. */
     void closeLoop(int from, int to);

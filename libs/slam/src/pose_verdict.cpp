@@ -11,11 +11,19 @@ constexpr PoseSpread widest{0.05, 0.04};
 
 }  // namespace
 
-Verdict judge(const LocatedFrame& located, const SE3& T_predicted_cam, const MotionPrior& prior) {
-    const Agreement agreement = prior.judge(T_predicted_cam);
-    if (agreement == Agreement::Contradicted) return Verdict::Rejected;
+Verdict judge(const LocatedFrame& located, const SupposedMotion& measured,
+              const SupposedMotion& inertial) {
+    const auto fits = [](const SupposedMotion& motion, Agreement least) {
+        const Agreement agreement = motion.prior.judge(motion.T_predicted_cam);
+        if (agreement == Agreement::Contradicted) return false;
+        return least == Agreement::Possible || agreement == Agreement::Confirmed ||
+               !motion.prior.measured();
+    };
     const bool few = located.inliers < few_inliers;
-    if (few && prior.measured() && agreement != Agreement::Confirmed) return Verdict::Rejected;
+    if (few && !(fits(measured, Agreement::Confirmed) && fits(inertial, Agreement::Confirmed))) {
+        return Verdict::Rejected;
+    }
+    if (!fits(inertial, Agreement::Possible)) return Verdict::Rejected;
     const PoseSpread spread = weakestDirection(covarianceAgainstMap(located));
     const bool open = spread.m > widest.m || spread.rad > widest.rad;
     return open ? Verdict::Uncertain : Verdict::Believed;

@@ -13,10 +13,20 @@ enum class Verdict {
     Rejected,
 };
 
+/** A motion since the frame before, and how far it is to be believed. */
+struct SupposedMotion {
+    /** From where the motion puts the camera to where the landmarks do. */
+    SE3 T_predicted_cam;
+    /** Up to the frame. */
+    MotionPrior prior;
+};
+
 /** Judges a pose by what its landmarks hold (the standard deviation of the weakest direction) and
- * by the motion since the frame before: few landmarks must agree with it, many may not contradict
- * it. \param T_predicted_cam from where the motion puts the camera to where the landmarks do \param
- * prior up to the frame */
-Verdict judge(const LocatedFrame& located, const SE3& T_predicted_cam, const MotionPrior& prior);
+ *  by the motion since the frame before: few landmarks must agree with what is measured, many need
+ *  only be possible. Wheels may slip or leap; many landmarks outrank them.
+ *  \param measured by wheels, where there are any
+ *  \param inertial as anything moves that has a mass */
+Verdict judge(const LocatedFrame& located, const SupposedMotion& measured,
+              const SupposedMotion& inertial);
 
 }  // namespace rgbd_graphslam

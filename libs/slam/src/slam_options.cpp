@@ -27,6 +27,8 @@ void TrackerOptions::describe(OptionVisitor& v) {
               "Number of keyframes in the local map");
     v.flag("align_keypoints", align_keypoints,
            "Refine matched keypoints by aligning the landmark's image patch");
+    v.flag("detect_standstill", detect_standstill,
+           "Keep the pose of a keyframe while the image shows that the camera has not moved since");
 }
 
 void KeyframeOptions::describe(OptionVisitor& v) {

@@ -105,10 +105,18 @@ std::optional<LocatedFrame> VisualSlam::Implementation::trackBelievably(Frame& f
     auto located = tracker.track(frame);
     if (!located) return located;
     record.origin = FrameOrigin::Tracked;
-    const auto predicted = prediction(frame);
-    if (!predicted) return located;
-    const Verdict verdict =
-        judge(*located, predicted->T_cam_world * located->T_cam_world.inverse(), predicted->prior);
+    if (options.tracker.detect_standstill) {
+        const int nearest = map.observers(located->landmarks).front().keyframe;
+        const Keyframe& keyframe = map.keyframe(nearest);
+        if (standsAt(keyframe, frame, located->landmarks, map, camera)) {
+            located->T_cam_world = keyframe.T_cam_world;
+        }
+    }
+    if (!placed) return located;
+    const SE3 T_last_cam = records.lastPose(map) * located->T_cam_world.inverse();
+    const Verdict verdict = judge(
+        *located, {weak_motion.guess(frame).inverse() * T_last_cam, weak_motion.priorAt(frame)},
+        {weak_motion.inertia(frame).inverse() * T_last_cam, weak_motion.priorByInertia(frame)});
     if (verdict == Verdict::Believed) return located;
     record.origin = FrameOrigin::Uncertain;
     if (verdict == Verdict::Uncertain) return located;
@@ -144,7 +152,9 @@ void VisualSlam::Implementation::keep(Frame frame, LocatedFrame located, KeptFra
     if (believed && (decision.wants(map, located, frames_since_keyframe) || proves_a_place)) {
         handOver();
         if (decision.reference() != map.keyframes().back().id) link = Link::None;
-        reference = insertKeyframe(frame, located, map.keyframe(reference).part, reference, {});
+        reference = insertKeyframe(
+            frame, located, map.keyframe(reference).part, reference,
+            {KeyframeLink::By::Landmarks, weakestDirection(covarianceAgainstMap(located))});
         record.keyframe = reference;
         located.landmarks = map.keyframe(reference).landmarks;
     }
@@ -193,10 +203,11 @@ void VisualSlam::Implementation::beginAnew(Frame frame, KeptFrame& record) {
     LocatedFrame located;
     located.landmarks.assign(frame.keypoints.size(), no_landmark);
     if (!map.keyframes().empty()) located.T_cam_world = record.T_cam_world(map);
-    const PoseSpread reckoned = tied ? weak_motion.prior().spread() : PoseSpread();
+    const KeyframeLink tie{KeyframeLink::By::DeadReckoning,
+                           tied ? weak_motion.prior().spread() : PoseSpread()};
     const int id = insertKeyframe(frame, located,
                                   tied ? map.keyframe(record.reference_keyframe).part : new_part,
-                                  record.reference_keyframe, reckoned);
+                                  record.reference_keyframe, tie);
     located.landmarks = map.keyframe(id).landmarks;
     if (!tied) record.origin = FrameOrigin::Tracked;
     record.keyframe = record.reference_keyframe = id;
@@ -224,13 +235,12 @@ void VisualSlam::Implementation::join(const PoseEdge& loop) {
 }
 
 int VisualSlam::Implementation::insertKeyframe(const Frame& frame, const LocatedFrame& located,
-                                               int part, int reference,
-                                               const PoseSpread& reckoned) {
+                                               int part, int reference, const KeyframeLink& tie) {
     int id = 0;
     const SE3 T_cam_reference = map.keyframes().empty()
                                     ? SE3()
                                     : located.T_cam_world * map.T_cam_world(reference).inverse();
-    uncertainty.add(reference, T_cam_reference, reckoned);
+    uncertainty.add(reference, T_cam_reference, tie);
     times.measure("map", [&] {
         id = map.addKeyframe(frame, located.T_cam_world, part, link);
         map.addObservations(located.landmarks, id);

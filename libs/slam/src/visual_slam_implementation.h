@@ -14,6 +14,7 @@
 #include "rgbd_graphslam/slam/stage_times.h"
 #include "rgbd_graphslam/slam/tracker.h"
 #include "rgbd_graphslam/slam/visual_slam.h"
+#include "standstill.h"
 #include "weak_motion.h"
 
 namespace rgbd_graphslam {
@@ -81,7 +82,7 @@ class VisualSlam::Implementation {
     void stray(Frame frame, KeptFrame& record);
     void beginAnew(Frame frame, KeptFrame& record);
     int insertKeyframe(const Frame& frame, const LocatedFrame& located, int part, int reference,
-                       const PoseSpread& reckoned);
+                       const KeyframeLink& tie);
 };
 
 }  // namespace rgbd_graphslam

@@ -34,6 +34,12 @@ MotionPrior WeakMotion::priorAt(const Frame& frame) const {
     return prior;
 }
 
+MotionPrior WeakMotion::priorByInertia(const Frame& frame) const {
+    MotionPrior prior = prior_;
+    prior.advance(frame, inertia(frame), MotionPrior::Source::InertiaAlone);
+    return prior;
+}
+
 std::optional<SE3> WeakMotion::follow(const Frame& frame, const SE3& T_last_world) {
     deceived_ = false;
     auto T_last_cam = followAnchor(frame, T_last_world);

@@ -37,6 +37,10 @@ class WeakMotion {
     /** How uncertain the pose by guess() is. */
     MotionPrior priorAt(const Frame& frame) const;
 
+    /** The same without wheels and gyroscope: what hands and bodies can do. */
+    SE3 inertia(const Frame& frame) const { return weak_.inertia(frame); }
+    MotionPrior priorByInertia(const Frame& frame) const;
+
     /** \param T_last_world pose of the frame before
      *  \return T_last_cam, the motion since then; nothing when no means works */
     std::optional<SE3> follow(const Frame& frame, const SE3& T_last_world);

@@ -15,6 +15,8 @@ constexpr double longest_inertia_s = 0.2;
 /** Longest that images are compared without any sensor saying that the camera is still there. */
 constexpr double longest_blind_s = 1.0;
 constexpr double least_depth_share = 0.25;
+/** Of anything on wheels, beyond what a late reading may add. */
+constexpr double fastest_m_s = 15, fastest_rad_s = 10, late_m = 0.1, late_rad = 0.1;
 
 void put(const std::vector<float>& pixels, ByteWriter& out) {
     out.putCount(pixels.size());
@@ -51,6 +53,15 @@ DenseView getView(ByteReader& in, const Camera& expected) {
 }
 
 }  // namespace
+
+std::optional<SE3> wheelMotion(const DeadReckoning& last, const DeadReckoning& now,
+                               double passed_s) {
+    if (!last.T_odometry_cam || !now.T_odometry_cam) return std::nullopt;
+    const SE3 motion = last.T_odometry_cam->inverse() * *now.T_odometry_cam;
+    if (motion.t.norm() > late_m + fastest_m_s * passed_s) return std::nullopt;
+    if (motion.angle() > late_rad + fastest_rad_s * passed_s) return std::nullopt;
+    return motion;
+}
 
 void WeakTracker::restart(const Frame& frame, const SE3& T_last_cam) {
     anchor_ = frame.view;
@@ -95,7 +106,9 @@ std::optional<SE3> WeakTracker::follow(const Frame& frame, const PossibleMotion&
         T_anchor_last_ = T_anchor_last_ * *predicted;
         T_anchor_last_.R = orthonormalised(T_anchor_last_.R);
         const bool seen = frame.view.valid() && frame.view.get().depthShare() > least_depth_share;
-        if (frame.reckoning.T_odometry_cam) last_fixed_s_ = frame.stamp_s;
+        if (wheelMotion(last_reckoning_, frame.reckoning, frame.stamp_s - last_stamp_s_)) {
+            last_fixed_s_ = frame.stamp_s;
+        }
         if (seen) {
             anchor_ = frame.view;
             T_anchor_last_ = SE3();
@@ -106,8 +119,11 @@ std::optional<SE3> WeakTracker::follow(const Frame& frame, const PossibleMotion&
 }
 
 SE3 WeakTracker::guess(const Frame& frame) const {
-    const bool moving = frame.stamp_s - last_stamp_s_ < longest_inertia_s;
-    return predictedMotion(frame).value_or(moving ? motion_ : SE3());
+    return predictedMotion(frame).value_or(inertia(frame));
+}
+
+SE3 WeakTracker::inertia(const Frame& frame) const {
+    return frame.stamp_s - last_stamp_s_ < longest_inertia_s ? motion_ : SE3();
 }
 
 std::optional<SE3> WeakTracker::alignWithAnchor(const Frame& frame, const SE3& T_last_cam_guess,
@@ -129,9 +145,8 @@ std::optional<SE3> WeakTracker::alignWithAnchor(const Frame& frame, const SE3& T
 /** By other sensors, the best of them. */
 std::optional<SE3> WeakTracker::predictedMotion(const Frame& frame) const {
     const DeadReckoning &last = last_reckoning_, &now = frame.reckoning;
-    if (last.T_odometry_cam && now.T_odometry_cam) {
-        return last.T_odometry_cam->inverse() * *now.T_odometry_cam;
-    }
+    const auto rolled = wheelMotion(last, now, frame.stamp_s - last_stamp_s_);
+    if (rolled) return rolled;
     if (!gyroscopeServes(frame)) return std::nullopt;
     const bool moving = frame.stamp_s - last_stamp_s_ < longest_inertia_s;
     const Eigen::Vector3d travelled = moving ? motion_.t : Eigen::Vector3d::Zero();

@@ -71,6 +71,16 @@ TEST(MotionPrior, wheelsThatSlipContradictNothing) {
     EXPECT_TRUE(of_good.wheelsTell(good.next()));
 }
 
+TEST(MotionPrior, wheelsThatLeapTellNothing) {
+    MotionPrior prior;
+    Frame before = withoutWheels(1), now = withoutWheels(1.03);
+    before.reckoning.T_odometry_cam = SE3();
+    now.reckoning.T_odometry_cam = moved(3);  // the driver began again
+    prior.restart(before, SE3());
+    EXPECT_FALSE(prior.wheelsTell(now));
+    EXPECT_FALSE(prior.rulesOut(now, SE3()));
+}
+
 TEST(MotionPrior, withoutSensorsOnlyTimeBoundsTheMotion) {
     MotionPrior prior;
     prior.restart(withoutWheels(1), SE3());

@@ -33,6 +33,16 @@ LocatedFrame locatedBy(int inliers, double sigma_m = 0.002, double sigma_rad = 0
     return located;
 }
 
+Verdict judge(const LocatedFrame& located, const SE3& T_predicted_cam, const MotionPrior& prior) {
+    return judge(located, {T_predicted_cam, prior}, {T_predicted_cam, prior});
+}
+
+TEST(PoseVerdict, manyLandmarksOutrankWheelsThatLeap) {
+    const SupposedMotion wheels{off(0.4), aFrameLater()}, inertia{off(0.01), aFrameLater()};
+    EXPECT_EQ(judge(locatedBy(400), wheels, inertia), Verdict::Believed);
+    EXPECT_EQ(judge(locatedBy(40), wheels, inertia), Verdict::Rejected);
+}
+
 TEST(PoseVerdict, noHandMovesACameraHalfAMeterInAFrame) {
     const MotionPrior prior = aFrameLater();
     EXPECT_EQ(judge(locatedBy(40), off(0.48), prior), Verdict::Rejected);
@@ -84,7 +94,11 @@ TEST(MapUncertainty, growsAlongTheWayAndShrinksByLoops) {
     for (int i = 1; i < 50; ++i) uncertainty.add(i - 1, off(0.2), {});
     EXPECT_LT(sigma(0), sigma(10));
     EXPECT_LT(sigma(10), sigma(49));
-    uncertainty.add(49, off(1), {0.05, 0.01});  // blind
+    MapUncertainty poor;
+    poor.add(0, SE3(), {});
+    poor.add(0, off(0.2), {KeyframeLink::By::Landmarks, {0.01, 0.005}});
+    EXPECT_GT(weakestDirection(poor.inWorld(Matrix6d::Zero(), 1)).m, 1.5 * sigma(1));
+    uncertainty.add(49, off(1), {KeyframeLink::By::DeadReckoning, {0.05, 0.01}});
     EXPECT_GT(sigma(50), 0.05);
     uncertainty.closeLoop(10, 50);
     EXPECT_EQ(sigma(50), sigma(10));

@@ -9,6 +9,11 @@
 
 namespace rgbd_graphslam {
 
+/** T_last_cam by the wheels; nothing where they are silent, or leap as when their driver starts
+ *  again. */
+std::optional<SE3> wheelMotion(const DeadReckoning& last, const DeadReckoning& now,
+                               double passed_s);
+
 /** Whether other sensors allow a motion T_last_cam. */
 using PossibleMotion = std::function<bool(const SE3& T_last_cam)>;
 
@@ -36,6 +41,9 @@ class WeakTracker {
 
     /** The likeliest T_last_cam before the frame is looked at. */
     SE3 guess(const Frame& frame) const;
+
+    /** The same if the camera moves on as it did, whatever other sensors say. */
+    SE3 inertia(const Frame& frame) const;
 
   private:
     std::optional<SE3> predictedMotion(const Frame& frame) const;
