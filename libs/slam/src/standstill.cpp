@@ -9,15 +9,17 @@ namespace {
 
 constexpr std::size_t fewest_per_quarter = 12;
 constexpr int quarters_at_rest = 3;
-constexpr float largest_median_px = 0.12f;
+/** For ever so many landmarks, and what noise adds to the median of one. */
+constexpr double largest_median_px = 0.1, noise_px = 0.6;
 
 /** How far landmarks are from where the keyframe saw them, px. */
 struct Quarter {
     std::vector<float> du, dv;
 
     bool rests() {
-        return du.size() >= fewest_per_quarter && std::abs(median(du)) < largest_median_px &&
-               std::abs(median(dv)) < largest_median_px;
+        if (du.size() < fewest_per_quarter) return false;
+        const double most = largest_median_px + noise_px / std::sqrt(du.size());
+        return std::abs(median(du)) < most && std::abs(median(dv)) < most;
     }
     static float median(std::vector<float>& values) {
         const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);

@@ -43,7 +43,7 @@ TEST(Standstill, aCameraThatStandsDoesNotTremble) {
 }
 
 TEST(Standstill, whatWalksThroughAQuarterOfTheViewMovesNothing) {
-    EXPECT_LT(worstError(true, true, 0), 1e-9);
+    EXPECT_LT(worstError(true, true, 0), 0.3 * worstError(false, true, 0));
 }
 
 TEST(Standstill, slowMotionIsFollowed) {
