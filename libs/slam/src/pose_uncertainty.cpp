@@ -49,7 +49,7 @@ PoseSpread weakestDirection(const Matrix6d& covariance) {
 
 void MapUncertainty::add(int reference, const SE3& T_reference_keyframe, const KeyframeLink& link) {
     Variance variance;
-    if (!variances_.empty()) variance = variances_[reference];
+    if (reference != no_reference) variance = variances_[reference];
     const double way = T_reference_keyframe.t.norm() + T_reference_keyframe.angle();
     const bool reckoned = link.by == KeyframeLink::By::DeadReckoning;
     const auto growth = [&](double sigma, double poor) {

@@ -19,6 +19,9 @@ Matrix6d covarianceOf(const PoseSpread& spread);
 /** Standard deviations of the least certain direction, of position and of rotation. */
 PoseSpread weakestDirection(const Matrix6d& covariance);
 
+/** Of the first keyframe of a part of the map, which defines where that is. */
+constexpr int no_reference = -1;
+
 /** How uncertain a keyframe is against the one that it is tied to. */
 struct KeyframeLink {
     enum class By { Landmarks, DeadReckoning } by = By::Landmarks;
@@ -35,7 +38,7 @@ class MapUncertainty {
     void restore(std::size_t keyframes) { variances_.assign(keyframes, {}); }
 
     /** The next keyframe.
-     *  \param reference that it was located by, or that dead reckoning began at
+     *  \param reference that it was located by, or that dead reckoning began at, or no_reference
      *  \param T_reference_keyframe the motion between them
      *  \param link by landmarks that both see, or by dead reckoning */
     void add(int reference, const SE3& T_reference_keyframe, const KeyframeLink& link);

@@ -207,7 +207,7 @@ void VisualSlam::Implementation::beginAnew(Frame frame, KeptFrame& record) {
                            tied ? weak_motion.prior().spread() : PoseSpread()};
     const int id = insertKeyframe(frame, located,
                                   tied ? map.keyframe(record.reference_keyframe).part : new_part,
-                                  record.reference_keyframe, tie);
+                                  tied ? record.reference_keyframe : no_reference, tie);
     located.landmarks = map.keyframe(id).landmarks;
     if (!tied) record.origin = FrameOrigin::Tracked;
     record.keyframe = record.reference_keyframe = id;
@@ -237,7 +237,7 @@ void VisualSlam::Implementation::join(const PoseEdge& loop) {
 int VisualSlam::Implementation::insertKeyframe(const Frame& frame, const LocatedFrame& located,
                                                int part, int reference, const KeyframeLink& tie) {
     int id = 0;
-    const SE3 T_cam_reference = map.keyframes().empty()
+    const SE3 T_cam_reference = reference == no_reference
                                     ? SE3()
                                     : located.T_cam_world * map.T_cam_world(reference).inverse();
     uncertainty.add(reference, T_cam_reference, tie);

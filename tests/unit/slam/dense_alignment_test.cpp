@@ -59,7 +59,7 @@ TEST(DenseAlignment, noiseOfSomethingFlatHoldsNothing) {
         view.camera = shrunk(Camera{}, 8);
         for (int i = 0; i < view.camera.width * view.camera.height; ++i) {
             view.grey.push_back(110);
-            view.depth_m.push_back(1 + 0.0016f * (random() % 1001 / 500.f - 1));
+            view.depth_m.push_back(1 + 0.004f * (random() % 1001 / 500.f - 1));
         }
         return view;
     };
