@@ -5,6 +5,8 @@
 #include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/sensor_hints.h"
+#include "rgbd_graphslam/dataset/sensor_units.h"
 #include "rgbd_graphslam/dataset/sequence_archive.h"
 #include "rgbd_graphslam/dataset/sequence_import.h"
 #include "rgbd_graphslam/dataset/sequence_layout.h"
@@ -20,8 +22,37 @@ struct Arguments {
     double rate_hz = 30;
     double depth_units = 0, depth_scale = 0;
     bool compact = false, small = false;
+    std::string accel_unit = "m/s2", gyro_unit = "rad/s", odometry_unit = "m", heading_unit = "rad";
     ImportOptions import;
 };
+
+/** Each takes a unit's name or a number, which may be negative. */
+void declareSensorUnits(CLI::App& app, Arguments& args) {
+    app.add_option("--imu-accel-unit", args.accel_unit,
+                   "Unit of the accelerometer: m/s2, g, mg, cm/s2, mm/s2, or what one unit is in "
+                   "m/s2 (=-1 if it is negated)")
+        ->type_name("UNIT")
+        ->capture_default_str();
+    app.add_option("--imu-gyro-unit", args.gyro_unit,
+                   "Unit of the gyroscope: rad/s, deg/s, mrad/s, mdeg/s, rpm, or a number as above")
+        ->type_name("UNIT")
+        ->capture_default_str();
+    app.add_option("--odometry-unit", args.odometry_unit,
+                   "Unit of the odometry's x and y: m, cm, mm, in, ft, or a number as above")
+        ->type_name("UNIT")
+        ->capture_default_str();
+    app.add_option("--odometry-heading-unit", args.heading_unit,
+                   "Unit of the odometry's heading: rad, deg, or a number as above")
+        ->type_name("UNIT")
+        ->capture_default_str();
+}
+
+SensorUnitValues sensorUnits(const Arguments& args) {
+    return {unitValue(accelerationUnits(), args.accel_unit),
+            unitValue(angularVelocityUnits(), args.gyro_unit),
+            unitValue(lengthUnits(), args.odometry_unit),
+            unitValue(angleUnits(), args.heading_unit)};
+}
 
 void declare(CLI::App& app, Arguments& args) {
     app.add_option("DIR", args.source, "Folder of the sequence, its .tgz archive or ROS 1 .bag")
@@ -69,6 +100,7 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_flag("--strict", args.import.strict, "A listed file that is missing is an error");
     app.add_flag("--skip-damaged", args.import.skip_damaged,
                  "Leave frames with a damaged image out instead of stopping");
+    declareSensorUnits(app, args);
     declareCommonOptions(app);
 }
 
@@ -110,7 +142,8 @@ CameraSetup chooseCamera(const Arguments& args, const RgbdSequence& sequence,
 int importFolder(const Arguments& args, const std::string& folder) {
     const SequenceLayout layout =
         args.layout == "auto" ? detectLayout(folder) : layoutByName(args.layout);
-    const RgbdSequence sequence = readSequence(folder, layout, args.rate_hz);
+    const RgbdSequence sequence =
+        inOurUnits(readSequence(folder, layout, args.rate_hz), sensorUnits(args));
     CameraSetup setup = chooseCamera(args, sequence, layout);
     if (args.depth_units > 0) {
         setup.depth_units = args.depth_units;

@@ -18,6 +18,7 @@
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/registration_check.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/dataset/sensor_hints.h"
 #include "sensor_entries.h"
 
 namespace rgbd_graphslam {
@@ -290,6 +291,7 @@ ImportReport importSequence(const RgbdSequence& sequence, const CameraSetup& set
         report.warnings.push_back(
             textOf(*report.misalignment_px, options.depth_camera.has_value()));
     }
+    for (const std::string& hint : sensorHints(sequence)) report.warnings.push_back(hint);
     for (const std::string& warning : report.warnings) sayWarning(warning);
     report.seconds =
         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

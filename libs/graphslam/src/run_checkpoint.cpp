@@ -29,6 +29,7 @@ void save(const RunState& run, ByteWriter& out) {
         encodePose(run.start->T_up_world, out);
         encode(run.start->sessions, out);
     }
+    run.sensors.save(out);
     run.session.save(out);
 }
 
@@ -50,6 +51,7 @@ void load(ByteReader& in, RunState& run) {
         run.start.emplace().T_up_world = decodePose(in);
         run.start->sessions = decodeSessions(in);
     }
+    run.sensors.load(in);
     run.session.load(in);
     const std::size_t keyframes = run.session.slam().keyframes().size();
     if (run.T_previous_keyframe.size() != keyframes) {
@@ -65,7 +67,10 @@ void readOver(RunState& run) {
     for (std::size_t i = 0; i < run.frames_read; ++i) {
         const auto frame = run.stream.skip();
         if (!frame) throw Error("the rawlog '" + run.job.rawlog + "' ends before its checkpoint");
-        for (const auto& observation : frame->before) run.level.note(*observation);
+        for (const auto& observation : frame->before) {
+            run.level.note(*observation);
+            run.sensors.note(*observation);
+        }
         const bool left_out =
             known == tracked.end() || toSeconds(frame->observation->timestamp) != known->stamp_s;
         if (left_out) continue;

@@ -21,7 +21,8 @@ RunState::RunState(const SlamJob& slam_job, std::optional<SparseMap> start_map)
       start(std::move(start_map)),
       stream(job.rawlog, job.options.run),
       session(makeSession(job, stream, start)),
-      level(job.options.maps) {
+      level(job.options.maps),
+      sensors(stream.firstFrame()) {
     if (!start) return;
     for (const KeyframeView& keyframe : session.slam().keyframes()) noteKeyframe(keyframe.id);
     first_keyframe = static_cast<int>(T_previous_keyframe.size());

@@ -11,6 +11,7 @@
 #include "rgbd_graphslam/graphslam/sparse_map_file.h"
 #include "rgbd_graphslam/mapping/level_survey.h"
 #include "rgbd_graphslam/report/keyframe_sheet.h"
+#include "sensor_watch.h"
 
 namespace rgbd_graphslam {
 
@@ -60,6 +61,7 @@ struct RunState {
     std::vector<SE3> T_previous_keyframe;  // one a keyframe, the identity for the first
     KeyframeSheet keyframe_sheet;
     LevelSurvey level;
+    SensorWatch sensors;
     Trajectory truth;  // beside the estimate, in its world
 };
 

@@ -54,6 +54,7 @@ JobReport runSlamJob(const SlamJob& job) {
     const bool can_go_on = loop.interrupted() && checkpoints.enabled();
     if (can_go_on) writeCheckpoint(run, checkpoints);
     run.session.finish();
+    run.sensors.conclude(run.session.slam());
     run.report.interrupted = loop.interrupted();
     describeRun(run);
     writeRun(run);

@@ -1,5 +1,7 @@
 #include "tracking_loop.h"
 
+#include <utility>
+
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/process_usage.h"
@@ -76,14 +78,20 @@ bool TrackingLoop::takesItsTurn(const StreamedFrame& frame) {
 }
 
 void TrackingLoop::trackOne(const StreamedFrame& frame) {
-    for (const auto& observation : frame.before) run_.level.note(*observation);
+    for (const auto& observation : frame.before) {
+        run_.level.note(*observation);
+        run_.sensors.note(*observation);
+    }
     if (!takesItsTurn(frame)) return;
     const double stamp_s = frame.prepared.stamp_s;
     run_.last_stamp_s = stamp_s;
     if (!run_.first_stamp_s) run_.first_stamp_s = stamp_s;
     ++run_.report.frames;
     const ThreadClock clock;
-    const TrackedFrame tracked = run_.session.step(frame.observation, frame.prepared);
+    Frame prepared = frame.prepared;
+    run_.sensors.withhold(prepared.reckoning);
+    const TrackedFrame tracked = run_.session.step(frame.observation, std::move(prepared));
+    run_.sensors.compareWhenDue(run_.session.slam(), run_.report.frames);
     run_.report.frame_times.push_back({stamp_s, clock.wallMs()});
     live_feed_.note(frame, tracked, run_.report.frame_times.back().wall_ms, run_.session);
     if (!tracked.keyframe) return;

@@ -1,27 +1,42 @@
 #include "rgbd_graphslam/mapping/level_survey.h"
 
-#include <mrpt/obs/CObservationIMU.h>
-
 #include <algorithm>
+#include <cmath>
 
 #include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/dataset/accelerometer_check.h"
+#include "rgbd_graphslam/dataset/inertial_reading.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
+#include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/dataset/sensor_remedy.h"
+#include "rgbd_graphslam/dataset/tracked_motion.h"
 #include "rgbd_graphslam/mapping/keyframe_reader.h"
 
 namespace rgbd_graphslam {
 namespace {
-
-std::optional<Eigen::Vector3d> specificForce(const mrpt::obs::CObservationIMU& imu) {
-    using namespace mrpt::obs;
-    if (!imu.has(IMU_X_ACC) || !imu.has(IMU_Y_ACC) || !imu.has(IMU_Z_ACC)) return std::nullopt;
-    return Eigen::Vector3d(imu.get(IMU_X_ACC), imu.get(IMU_Y_ACC), imu.get(IMU_Z_ACC));
-}
 
 /** Cameras are mostly held upright. */
 Eigen::Vector3d meanCameraTop(const Trajectory& poses) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     for (const auto& pose : poses) sum -= pose.T_world_cam.R.col(1);
     return sum.normalized();
+}
+
+/** How far a camera that is held upright may lean. */
+constexpr double camera_error = M_PI / 4;
+
+/** Whether level surfaces face up much more than down: floors and tables are seen more than
+ *  ceilings. */
+bool seenFromAbove(const std::vector<SurfacePatch>& patches, const Eigen::Vector3d& up) {
+    constexpr std::size_t fewest = 200;
+    constexpr double level_cos = 0.97, times = 3;  // 14 degrees
+    std::size_t above = 0, below = 0;
+    for (const SurfacePatch& patch : patches) {
+        const double cosine = patch.normal.dot(up);
+        above += cosine > level_cos;
+        below += cosine < -level_cos;
+    }
+    return above >= fewest && static_cast<double>(above) > times * static_cast<double>(below);
 }
 
 /** Distance between the keyframes kept of a run with so many. */
@@ -34,13 +49,18 @@ std::size_t stepFor(std::size_t keyframes) {
 }  // namespace
 
 void LevelSurvey::note(const mrpt::obs::CObservation& observation) {
-    if (const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation)) {
-        const auto force = specificForce(*imu);
-        if (!force) return;
-        forces_in_base_.push_back({toSeconds(imu->timestamp), toSE3(imu->sensorPose).R * *force});
-    } else {
+    const auto* imu = dynamic_cast<const mrpt::obs::CObservationIMU*>(&observation);
+    if (!imu) {
         noteDepthStamps(observation, depth_stamps_);
+        return;
     }
+    const auto force = specificForce(*imu);
+    if (!force) return;
+    if (!accelerometer_) {
+        accelerometer_ = imu->sensorLabel;
+        T_base_accelerometer_ = toSE3(imu->sensorPose);
+    }
+    if (imu->sensorLabel == *accelerometer_) forces_.push_back({toSeconds(imu->timestamp), *force});
 }
 
 void LevelSurvey::addKeyframe(std::size_t number, const RgbdImage& image, const Camera& camera) {
@@ -58,7 +78,7 @@ void LevelSurvey::addKeyframe(std::size_t number, const RgbdImage& image, const 
 SE3 LevelSurvey::uprightFromWorld(const MapInputs& inputs, const SE3& T_base_cam) const {
     const MapInputs kept = withoutApart(inputs);
     const auto patches = patchesInWorld(inputs);
-    const Eigen::Vector3d up = findUp(kept, patches, forcesInCamera(T_base_cam));
+    const Eigen::Vector3d up = findUp(kept, patches, T_base_cam);
     const auto floor = floorHeight(patches, up);
     if (!floor) sayWarning("no level surface was seen: the first camera is taken to be at z = 0");
     const SE3& T_first = kept.keyframes.front().T_world_cam;
@@ -81,20 +101,53 @@ std::vector<SurfacePatch> LevelSurvey::patchesInWorld(const MapInputs& inputs) c
 
 std::vector<SpecificForce> LevelSurvey::forcesInCamera(const SE3& T_base_cam) const {
     std::vector<SpecificForce> forces;
-    for (const SpecificForce& force : forces_in_base_) {
-        forces.push_back({force.stamp_s, T_base_cam.R.transpose() * force.in_camera});
+    for (const auto& [stamp_s, force] : forces_) {
+        const Eigen::Vector3d in_base = T_base_accelerometer_.R * force;
+        forces.push_back({stamp_s, T_base_cam.R.transpose() * in_base});
     }
     return forces;
+}
+
+void LevelSurvey::leaveOut(const SensorVerdict& verdict, const SE3& T_base_cam) const {
+    const SE3 T_base_sensor = T_base_cam * T_optical_from_mrpt;
+    sayWarning(wrongSensorText("accelerometer", *accelerometer_, verdict,
+                               imuRemedy(verdict, {T_base_sensor, T_base_accelerometer_}, false)));
+}
+
+/** \return nothing when the accelerometer is of no use */
+std::optional<Eigen::Vector3d> LevelSurvey::upByAccelerometer(
+    const Trajectory& poses, const std::vector<SurfacePatch>& patches,
+    const SE3& T_base_cam) const {
+    if (!accelerometer_) return std::nullopt;
+    SensorVerdict verdict = checkAccelerometer(
+        forces_, movedAlong(stretchesOf(poses), T_base_cam.inverse() * T_base_accelerometer_));
+    const auto up = upFromAccelerometer(forcesInCamera(T_base_cam), poses);
+    const bool upside_down = up && up->dot(meanCameraTop(poses)) < -std::cos(camera_error);
+    if (upside_down && verdict.fault == SensorFault::Undecided && seenFromAbove(patches, -*up)) {
+        verdict.fault = SensorFault::Sign;
+        verdict.axes = -Eigen::Matrix3d::Identity();
+        verdict.finding = "by it the camera is upside down, and so are floor and tables: negated?";
+    }
+    if (verdict.wrong()) {
+        leaveOut(verdict, T_base_cam);
+        return std::nullopt;
+    }
+    if (upside_down && verdict.fault == SensorFault::Undecided) {
+        sayWarning("accelerometer '" + *accelerometer_ +
+                   "': by it the camera is upside down, which the motion neither shows nor rules "
+                   "out; if it was not, import with --imu-accel-unit=-1");
+    }
+    return up;
 }
 
 /** A Kinect's accelerometer is some 4 degrees off (TUM fr1/xyz against its ground truth), a floor
  *  well below one: so gravity says which surfaces are level, and these say what level is. */
 Eigen::Vector3d LevelSurvey::findUp(const MapInputs& kept, const std::vector<SurfacePatch>& patches,
-                                    const std::vector<SpecificForce>& forces) const {
-    constexpr double accelerometer_error = 8 * M_PI / 180, camera_error = M_PI / 4;
+                                    const SE3& T_base_cam) const {
+    constexpr double accelerometer_error = 8 * M_PI / 180;
     const Trajectory& poses = kept.trajectory.empty() ? kept.keyframes : kept.trajectory;
     if (options_.upright == "gravity") {
-        if (const auto up = upFromAccelerometer(forces, poses)) {
+        if (const auto up = upByAccelerometer(poses, patches, T_base_cam)) {
             return upFromFloor(patches, *up, accelerometer_error).value_or(*up);
         }
         sayInfo("no usable accelerometer in the rawlog: up is taken from the floor");

@@ -180,6 +180,69 @@ TEST_P(StreamOfARawlog, framesCarryWhatWheelsAndGyroscopeSay) {
     }
 }
 
+TEST_P(StreamOfARawlog, wheelsThatAreImpossiblyFastTellNothing) {
+    write([](RawlogWriter& writer) {
+        const auto film = filmRoundTrip(frames, 0);
+        for (int i = 0; i < frames; ++i) {
+            mrpt::obs::CObservationOdometry odometry;
+            odometry.timestamp = toMrptTime(room_start_s + i * room_period_s - 0.002);
+            odometry.odometry = {20.0 * i, 0, 0};  // in mm, by mistake
+            writer.write(odometry);
+            writer.write(*film[i]);
+        }
+    });
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    stream.next();
+    while (const auto frame = stream.next()) {
+        EXPECT_FALSE(frame->prepared.reckoning.T_odometry_cam) << frame->index;
+    }
+}
+
+TEST_P(StreamOfARawlog, aJumpOfTheWheelsIsNoMotion) {
+    write([](RawlogWriter& writer) {
+        const auto film = filmRoundTrip(frames, 0);
+        for (int i = 0; i < frames; ++i) {
+            mrpt::obs::CObservationOdometry odometry;
+            odometry.timestamp = toMrptTime(room_start_s + i * room_period_s);
+            odometry.odometry = {0.01 * i + (i > 1 ? 100 : 0), 0, 0};
+            writer.write(odometry);
+            writer.write(*film[i]);
+        }
+    });
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    std::vector<DeadReckoning> reckoned;
+    while (const auto frame = stream.next()) reckoned.push_back(frame->prepared.reckoning);
+    EXPECT_FALSE(reckoned[2].T_odometry_cam);
+    ASSERT_TRUE(reckoned[1].T_odometry_cam && reckoned[3].T_odometry_cam);
+    const SE3 moved = reckoned[1].T_odometry_cam->inverse() * *reckoned[3].T_odometry_cam;
+    EXPECT_NEAR(moved.t.norm(), 0.01, 1e-9);
+}
+
+TEST_P(StreamOfARawlog, ratesThatWereNotMeasuredAreNotZero) {
+    write([](RawlogWriter& writer) {
+        const auto film = filmRoundTrip(frames, 0);
+        for (int i = 0; i < frames; ++i) {
+            mrpt::obs::CObservationIMU imu;
+            imu.timestamp = toMrptTime(room_start_s + i * room_period_s);
+            imu.set(mrpt::obs::IMU_X_ACC, 9.81);
+            if (i % 2) {
+                for (const auto axis : {mrpt::obs::IMU_WX, mrpt::obs::IMU_WY, mrpt::obs::IMU_WZ}) {
+                    imu.set(axis, std::nan(""));
+                }
+            }
+            writer.write(imu);
+            writer.write(*film[i]);
+        }
+    });
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    while (const auto frame = stream.next()) {
+        EXPECT_FALSE(frame->prepared.reckoning.R_gyroscope_cam) << frame->index;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Threads, StreamOfARawlog, testing::Values(1, 2, 5));
 
 }  // namespace

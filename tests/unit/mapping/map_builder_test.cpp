@@ -24,6 +24,7 @@
 #include "../../support/problem_of.h"
 #include "box_room.h"
 #include "rgbd_graphslam/core/atomic_file.h"
+#include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/depth_stamps.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
@@ -127,6 +128,14 @@ TEST_F(MapBuilder, accelerometerIsBelievedWhereTheFloorIsARamp) {
     MapOptions by_floor;
     by_floor.upright = "floor";
     EXPECT_LT(tiltDegrees(uprightFromWorld(inputs_, by_floor)), 0.2);
+}
+
+TEST_F(MapBuilder, accelerometerThatHasTheFloorOverheadIsLeftOut) {
+    writeWalk(true, M_PI);
+    const WarningRecord record;
+    EXPECT_LT(tiltDegrees(uprightFromWorld(inputs_, MapOptions())), 0.2);
+    ASSERT_EQ(record.warnings().size(), 1u);
+    EXPECT_NE(record.warnings()[0].find("--imu-accel-unit=-1"), std::string::npos);
 }
 
 TEST_F(MapBuilder, withoutEitherTheFirstCameraIsLevel) {

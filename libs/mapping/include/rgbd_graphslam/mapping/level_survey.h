@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "rgbd_graphslam/dataset/depth_stamps.h"
+#include "rgbd_graphslam/dataset/rgbd_sequence.h"
+#include "rgbd_graphslam/dataset/sensor_verdict.h"
 #include "rgbd_graphslam/mapping/map_inputs.h"
 #include "rgbd_graphslam/mapping/map_options.h"
 #include "rgbd_graphslam/mapping/upright.h"
@@ -35,7 +37,8 @@ class LevelSurvey {
     /** T_up_world: z up, floor at z = 0, first camera above the origin and looking along +x. Up is
      *  where the accelerometer says (specific force, averaged over the run in world axes), made
      *  precise by the level surfaces in sight; else the normal of the floor; else the first
-     *  camera's, with a warning; see MapOptions::upright.
+     *  camera's, with a warning; see MapOptions::upright. An accelerometer that contradicts the
+     *  tracked motion, or has the surfaces upside down, is left out with a warning.
      *  \param inputs the keyframes that were added, and no others
      *  \param T_base_cam the camera on the robot, whose axes the accelerometer's pose refers to */
     SE3 uprightFromWorld(const MapInputs& inputs, const SE3& T_base_cam) const;
@@ -48,13 +51,20 @@ class LevelSurvey {
     };
     std::vector<SurfacePatch> patchesInWorld(const MapInputs& inputs) const;
     std::vector<SpecificForce> forcesInCamera(const SE3& T_base_cam) const;
+    std::optional<Eigen::Vector3d> upByAccelerometer(const Trajectory& poses,
+                                                     const std::vector<SurfacePatch>& patches,
+                                                     const SE3& T_base_cam) const;
     Eigen::Vector3d findUp(const MapInputs& kept, const std::vector<SurfacePatch>& patches,
-                           const std::vector<SpecificForce>& forces) const;
+                           const SE3& T_base_cam) const;
+    void leaveOut(const SensorVerdict& verdict, const SE3& T_base_cam) const;
 
     const MapOptions options_;
     std::optional<RayTable> rays_;
     DepthStamps depth_stamps_;
-    std::vector<SpecificForce> forces_in_base_;
+    /** The accelerometer that comes first, in its own axes. */
+    std::optional<std::string> accelerometer_;
+    SE3 T_base_accelerometer_;
+    std::vector<StampedVector> forces_;
     std::vector<SurveyedKeyframe> keyframes_;
     std::size_t step_ = 1;
 };
