@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <opencv2/core/utility.hpp>
 
 #include "rgbd_graphslam/core/console.h"
@@ -39,6 +40,67 @@ int endOfParsing(const CLI::App& app, const CLI::ParseError& end) {
     throw Error(problem, "see " + commandOf(app) + " --help");
 }
 
+/** What the value of an option is, by its name: the library's own names of types, TEXT, INT and
+ *  FLOAT, are those of programmers. */
+std::string valueName(const CLI::Option& option, const std::string& type) {
+    static const std::map<std::string, std::string> known{{"out", "DIR"},
+                                                          {"output", "DIR"},
+                                                          {"rawlog", "FILE"},
+                                                          {"trajectory", "FILE"},
+                                                          {"surface", "FILE"},
+                                                          {"estimate", "FILE"},
+                                                          {"truth", "FILE"},
+                                                          {"plot", "FILE"},
+                                                          {"plot-errors", "FILE"},
+                                                          {"config", "FILE"},
+                                                          {"table", "FILE"},
+                                                          {"pairs", "FILE"},
+                                                          {"camera", "NAME|FILE"},
+                                                          {"only", "I/N"},
+                                                          {"set", "SECTION.KEY=VALUE"},
+                                                          {"goal", "X,Y"},
+                                                          {"start", "X,Y,PHI"},
+                                                          {"size", "WIDTHxHEIGHT"},
+                                                          {"grid", "METRES"},
+                                                          {"octree", "METRES"},
+                                                          {"points", "METRES"},
+                                                          {"mesh", "METRES"},
+                                                          {"z-min", "METRES"},
+                                                          {"z-max", "METRES"},
+                                                          {"voxel", "METRES"},
+                                                          {"tolerance", "METRES"},
+                                                          {"max-range", "METRES"},
+                                                          {"max-depth", "METRES"},
+                                                          {"complete-within", "METRES"},
+                                                          {"max-incidence", "DEGREES"},
+                                                          {"registration-error", "PIXELS"},
+                                                          {"offset", "SECONDS"},
+                                                          {"max-difference", "SECONDS"},
+                                                          {"from", "SECONDS"},
+                                                          {"to", "SECONDS"},
+                                                          {"plot-distribution", "FILE"},
+                                                          {"scans", "PER_SECOND"},
+                                                          {"depth-units", "PER_METRE"}};
+    for (const std::string& name : option.get_lnames()) {
+        const auto found = known.find(name);
+        if (found != known.end()) return found->second;
+    }
+    if (type == "INT" || type == "UINT") return "N";
+    return type == "FLOAT" ? "NUMBER" : "VALUE";
+}
+
+void nameValues(CLI::App& app) {
+    for (CLI::Option* option : app.get_options({})) {
+        const std::string type = option->get_type_name();
+        const bool positional = option->get_lnames().empty() && option->get_snames().empty();
+        if (positional && type == "TEXT") option->type_name("");
+        if (type == "TEXT" || type == "INT" || type == "UINT" || type == "FLOAT") {
+            if (!positional) option->type_name(valueName(*option, type));
+        }
+    }
+    for (CLI::App* command : app.get_subcommands({})) nameValues(*command);
+}
+
 }  // namespace
 
 CLI::Validator positive() {
@@ -56,6 +118,7 @@ CLI::Validator notNegative() {
 }
 
 void declareCommonOptions(CLI::App& app) {
+    nameValues(app);
     app.add_flag_callback(
         "-q,--quiet", [] { setVerbosity(Verbosity::Quiet); }, "Only errors and results");
     app.add_flag_callback(
@@ -63,6 +126,12 @@ void declareCommonOptions(CLI::App& app) {
     app.set_version_flag("--version", RGBD_VERSION);
     addPrinter(app, "--print-man-page", manPage);
     addPrinter(app, "--print-bash-completion", bashCompletion);
+}
+
+void declareExamples(CLI::App& app, const std::vector<std::string>& commands) {
+    std::string text = commands.size() > 1 ? "Examples:" : "Example:";
+    for (const std::string& command : commands) text += "\n  " + command;
+    app.footer(text);
 }
 
 int runProgram(CLI::App& app, int argc, char** argv, const std::function<int()>& body) {

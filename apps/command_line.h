@@ -10,6 +10,9 @@ namespace rgbd_graphslam {
  *  after all options and subcommands are declared. */
 void declareCommonOptions(CLI::App& app);
 
+/** Command lines that --help and the manual page show. */
+void declareExamples(CLI::App& app, const std::vector<std::string>& commands);
+
 /** Checks whose complaints a person can read: CLI11's own name the largest double there is, and let
  *  -3 pass for an unsigned number. */
 CLI::Validator positive();

@@ -102,6 +102,9 @@ std::string manPage(const CLI::App& app) {
         text += ".SS " + synopsisOf(*command) + roff(command->get_description()) + "\n" +
                 entriesOf(*command);
     }
+    if (const std::string examples = app.get_footer(); !examples.empty()) {
+        text += ".SH EXAMPLES\n" + roff(examples.substr(examples.find('\n') + 1)) + "\n";
+    }
     return text + exit_status;
 }
 

@@ -32,6 +32,8 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_option("--threads", args.options.threads, "Threads that encode images")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
+    declareExamples(app, {"rawlog2tum office.rawlog office",
+                          "rawlog2tum office.rawlog office --from 10 --to 20 --every 2"});
     declareCommonOptions(app);
 }
 

@@ -38,6 +38,8 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_flag("--no-maps", args.no_maps, "Trajectories only");
     app.add_flag("--keep-rawlogs", request.run.keep_rawlog, "Keep the imported rawlogs");
     app.add_flag("--list", args.list, "Print the sequences found, run nothing");
+    declareExamples(app, {"rgbd-benchmark ~/tum -o results",
+                          "rgbd-benchmark ~/tum -o results --only 1/4 --no-maps"});
     declareCommonOptions(app);
 }
 

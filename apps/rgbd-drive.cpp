@@ -27,6 +27,9 @@ int main(int argc, char** argv) {
     app.add_option("-o,--output", request.out_folder,
                    "Folder for path.csv and drive.png (default: OUT)");
     app.add_option("--set", request.settings, "DriveOptions.key=value instead of the ini's");
+    declareExamples(app,
+                    {"rgbd-drive ini/drive.ini out --goal 1.5,0.5",
+                     "rgbd-drive ini/drive.ini out --start 0,0,1.57 --goal=-3.5,3.5 -o drive"});
     declareCommonOptions(app);
     return runProgram(app, argc, argv, [&] {
         request.goal = {goal[0], goal[1]};

@@ -202,6 +202,9 @@ int run(int argc, char** argv) {
     addMap(app, map);
     OctreeRequest octree;
     addOctree(app, octree);
+    declareExamples(app,
+                    {"rgbd-eval ate out/trajectory.txt office.rawlog --plot ate.png",
+                     "rgbd-eval rpe out/trajectory.txt groundtruth.txt --fixed-delta --delta 1"});
     declareCommonOptions(app);
     return runProgram(app, argc, argv);
 }

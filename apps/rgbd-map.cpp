@@ -82,6 +82,7 @@ int main(int argc, char** argv) {
                    "Also write scans.rawlog for MRPT's pf-localization: level scans made of the "
                    "depth images, at most so many a second, and odometry made of the trajectory")
         ->check(CLI::PositiveNumber);
+    declareExamples(app, {"rgbd-map out --octree 0.02", "rgbd-map out --mesh 0.02 -o fine"});
     declareCommonOptions(app);
     return runProgram(app, argc, argv, [&] {
         const MapOptions options = optionsOf(app, arguments);

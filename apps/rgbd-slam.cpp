@@ -13,46 +13,63 @@ constexpr int limited_exit_code = 3;
 constexpr int interrupted_exit_code = 130;
 
 struct Arguments {
-    std::string ini, rawlog, out_folder, map_folder, resume_folder;
+    std::string ini, rawlog, out_folder, map_folder, resume_folder, sensor_label;
     std::vector<std::string> assignments;
     int threads = 0, max_frames = 0;
     bool localize = false, extend = false;
-    bool no_maps = false, profile = false, view = false, print_config = false;
+    bool strict = false, no_maps = false, profile = false, view = false, print_config = false;
 };
 
 void declare(CLI::App& app, Arguments& args) {
-    auto* const ini = app.add_option("INI", args.ini, "Settings, e.g. ini/default.ini");
-    auto* const rawlog = app.add_option("RAWLOG", args.rawlog, "Rawlog with RGB-D frames");
+    auto* const ini =
+        app.add_option("INI", args.ini, "Settings, e.g. ini/default.ini")->type_name("FILE");
+    auto* const rawlog =
+        app.add_option("RAWLOG", args.rawlog, "Rawlog with RGB-D frames")->type_name("FILE");
     auto* const out =
-        app.add_option("-o,--out", args.out_folder, "Folder for the results, made where missing");
+        app.add_option("-o,--out", args.out_folder, "Folder for the results, created if missing")
+            ->type_name("DIR");
     auto* const map =
-        app.add_option("--map", args.map_folder, "Start from the map of an earlier run's folder");
+        app.add_option("--map", args.map_folder, "Start from the map in an earlier run's folder")
+            ->type_name("DIR");
     auto* const localize = app.add_flag("--localize", args.localize,
-                                        "With --map: find every frame in it, leave it as it is");
-    app.add_flag("--extend", args.extend, "With --map: add what this rawlog shows to it")
+                                        "With --map: localize every frame in it, unchanged");
+    app.add_flag("--extend", args.extend, "With --map: extend it by what this rawlog shows")
         ->needs(map)
         ->excludes(localize);
     localize->needs(map);
-    auto* const set = app.add_option("--set", args.assignments,
-                                     "Section.key=value instead of the ini's; repeatable")
-                          ->allow_extra_args(false);
-    app.add_option("--threads", args.threads, "As --set RunOptions.threads=N");
+    auto* const sensor =
+        app.add_option("--sensor", args.sensor_label,
+                       "Label of the RGB-D camera to use where the rawlog has several "
+                       "(default: the first)")
+            ->type_name("LABEL");
+    auto* const strict = app.add_flag(
+        "--strict", args.strict,
+        "Refuse a recording whose depth is not registered to colour or in the wrong units");
+    auto* const set =
+        app.add_option("--set", args.assignments, "Override an ini setting; may be repeated")
+            ->allow_extra_args(false)
+            ->type_name("SECTION.KEY=VALUE");
+    app.add_option("--threads", args.threads, "As --set RunOptions.threads=N")->type_name("N");
     auto* const max_frames =
-        app.add_option("--max-frames", args.max_frames, "As --set RunOptions.max_frames=N");
+        app.add_option("--max-frames", args.max_frames, "As --set RunOptions.max_frames=N")
+            ->type_name("N");
     auto* const no_maps =
         app.add_flag("--no-maps", args.no_maps, "As --set RunOptions.dense_maps=false");
     app.add_flag("--view", args.view, "Watch the run in a window; as rgbd-viewer --follow OUT");
     app.add_flag("--profile", args.profile, "Print the times of all stages");
     app.add_flag("--print-config", args.print_config,
-                 "Print all settings as a commented ini, then stop");
+                 "Print all settings as a commented ini file and exit");
     auto* const resume =
         app.add_option("--resume", args.resume_folder,
-                       "Go on with the killed or interrupted run in this folder from its last "
-                       "checkpoint, with its settings and its rawlog; the result is that of a run "
-                       "never ended");
-    for (auto* const other : {ini, rawlog, out, map, set, max_frames, no_maps}) {
+                       "Resume the interrupted run in DIR from its last checkpoint, using its "
+                       "settings and rawlog")
+            ->type_name("DIR");
+    for (auto* const other : {ini, rawlog, out, map, sensor, strict, set, max_frames, no_maps}) {
         resume->excludes(other);
     }
+    declareExamples(app, {"rgbd-slam ini/default.ini office.rawlog -o office",
+                          "rgbd-slam ini/default.ini office2.rawlog -o office2 --map office "
+                          "--localize"});
     declareCommonOptions(app);
 }
 
@@ -73,6 +90,10 @@ JobOptions optionsOf(const CLI::App& app, const Arguments& args) {
     return options;
 }
 
+Error missingArgument(const std::string& name) {
+    return Error("missing argument " + name + ". Usage: rgbd-slam INI RAWLOG -o OUT");
+}
+
 SlamJob jobOf(const CLI::App& app, const Arguments& args) {
     if (!args.resume_folder.empty()) {
         SlamJob job = resumedJob(args.resume_folder);
@@ -83,19 +104,24 @@ SlamJob jobOf(const CLI::App& app, const Arguments& args) {
         return job;
     }
     const JobOptions options = optionsOf(app, args);
-    if (args.rawlog.empty() || args.out_folder.empty()) {
-        throw Error("the rawlog or the output folder is missing",
-                    "call rgbd-slam INI RAWLOG -o OUT, see --help");
+    for (const auto& [value, name] :
+         {std::pair(&args.ini, "INI"), std::pair(&args.rawlog, "RAWLOG"),
+          std::pair(&args.out_folder, "-o OUT")}) {
+        if (value->empty()) throw missingArgument(name);
     }
     if (!args.map_folder.empty() && !args.localize && !args.extend) {
         throw Error("--map alone does not say what to do with it", "add --localize or --extend");
     }
-    return {args.rawlog,
-            args.out_folder,
-            options,
-            args.map_folder,
-            args.extend ? MapUse::Extend : MapUse::Localise,
-            args.view};
+    SlamJob job;
+    job.rawlog = args.rawlog;
+    job.out_folder = args.out_folder;
+    job.options = options;
+    job.map_folder = args.map_folder;
+    job.map_use = args.extend ? MapUse::Extend : MapUse::Localise;
+    job.view = args.view;
+    job.sensor_label = args.sensor_label;
+    job.strict = args.strict;
+    return job;
 }
 
 int run(const CLI::App& app, const Arguments& args) {

@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
     synth::FilmOptions options;
     std::string scenario, folder, size = "640x480", noise = "kinect";
     std::vector<std::string> sheet;
+    double readout_ms = 0;
     bool list_only = false;
     app.add_option("scenario", scenario, "see --list");
     app.add_option("out_dir", folder, "new folder for the sequence");
@@ -72,16 +73,23 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--registration-error", options.registration_error_px,
                    "shift of depth against colour, pixels");
+    app.add_option("--readout", readout_ms,
+                   "rolling shutter: time from the first row's reading to the last's, ms")
+        ->check(notNegative())
+        ->type_name("MS");
     app.add_option("--contact-sheet", sheet,
                    "PICTURE DIR...: show finished sequences in one picture, film nothing");
     app.add_option("--session", options.session, "of a scenario with several")
         ->capture_default_str();
+    declareExamples(app,
+                    {"rgbd-synth --list", "rgbd-synth office office --frames 100 --size 320x240"});
     declareCommonOptions(app);
     return runProgram(app, argc, argv, [&] {
         if (list_only) return list(), 0;
         if (!sheet.empty()) return makeSheet(sheet), 0;
         if (scenario.empty() || folder.empty())
             throw Error("scenario or folder is missing", "see rgbd-synth --help");
+        options.readout_s = 1e-3 * readout_ms;
         options.noise = noise == "kinect";
         setSize(size, options);
         const synth::FilmSummary film = synth::film(synth::findScenario(scenario), options, folder);

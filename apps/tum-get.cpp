@@ -20,6 +20,7 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_flag("--list", args.list, "Print the sequences: duration, length of the path, size");
     app.add_flag("--keep-archive", args.keep_archive, "Keep the .tgz beside the unpacked folder");
     app.add_option("--table", args.table, "Ini of sequences; default: the shipped one");
+    declareExamples(app, {"tum-get --list", "tum-get fr1/desk ~/tum"});
     declareCommonOptions(app);
 }
 

@@ -87,6 +87,12 @@ TEST_F(FaultSlam, unknownKeyIsNamedWithItsLine) {
     EXPECT_FALSE(fs::exists(out_));
 }
 
+TEST_F(FaultSlam, aKeyUnlikeAnyOtherIsNoMisspeltOne) {
+    const auto result = slam("--set TrackerOptions.foo=1");
+    expectRefused(result, "unknown key 'foo' in [TrackerOptions]");
+    EXPECT_THAT(result.err, ::testing::Not(HasSubstr("did you mean")));
+}
+
 TEST_F(FaultSlam, valuesOutOfRange) {
     expectRefused(slam("--set TrackerOptions.min_inliers=many"), "min_inliers = 'many'");
     expectRefused(slam("--set nonsense"), "--set 'nonsense' is malformed");
@@ -94,7 +100,10 @@ TEST_F(FaultSlam, valuesOutOfRange) {
 }
 
 TEST_F(FaultSlam, missingArguments) {
-    expectRefused(runProgram("rgbd-slam", inQuotes(default_ini)), "missing");
+    expectRefused(runProgram("rgbd-slam", inQuotes(default_ini)),
+                  "missing argument RAWLOG. Usage: rgbd-slam INI RAWLOG -o OUT");
+    expectRefused(runProgram("rgbd-slam", inQuotes(default_ini) + " " + inQuotes(rawlog_)),
+                  "missing argument -o OUT");
 }
 
 TEST_F(FaultSlam, missingRawlog) {

@@ -10,6 +10,10 @@ if(NOT code EQUAL 0 OR NOT text MATCHES "Usage:" OR NOT text MATCHES "--quiet.*-
     message(SEND_ERROR "--help ended with ${code} and said:\n${text}")
 endif()
 
+if(text MATCHES " (INT|UINT|FLOAT|TEXT)[ \n]")
+    message(SEND_ERROR "--help names a type of programmers':\n${text}")
+endif()
+
 run(code text --version)
 if(NOT code EQUAL 0 OR NOT text STREQUAL "${VERSION}\n")
     message(SEND_ERROR "--version ended with ${code} and said:\n${text}")

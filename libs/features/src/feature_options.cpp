@@ -14,7 +14,9 @@ void FeatureOptions::describe(OptionVisitor& v) {
     v.integer("cell_px", cell_px, 8, 200, "px",
               "Size of the grid cells used to spread keypoints evenly");
     v.real("depth_min_m", depth_min_m, 0, 10, "m", "Minimum valid depth");
-    v.real("depth_max_m", depth_max_m, 0.5, 100, "m", "Maximum valid depth");
+    v.real("depth_max_m", depth_max_m, 0, 100, "m",
+           "Maximum valid depth; 0 = automatic: 10, or more where most of the recording is farther "
+           "away");
     v.real("depth_edge_step", depth_edge_step, 0.001, 1, "1/m",
            "Depth discontinuity threshold around a keypoint: depth step / depth^2 (scales with the "
            "noise)");

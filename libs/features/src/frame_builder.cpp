@@ -51,7 +51,7 @@ float foregroundDepth(const cv::Mat& depth, double depth_unit_m, float u, float 
     }
     if (readings < fewest_readings) return 0;
     const double z = depth_unit_m * sum / readings;
-    return z >= options.depth_min_m && z <= options.depth_max_m ? static_cast<float>(z) : 0;
+    return z >= options.depth_min_m && z <= options.farthestDepthM() ? static_cast<float>(z) : 0;
 }
 
 FrameBuilder::FrameBuilder(const FeatureOptions& options, const Camera& camera)

@@ -31,6 +31,7 @@ std::string encoded(const Checkpoint& checkpoint) {
     out.putText(checkpoint.job.map_folder);
     out.put<std::uint8_t>(checkpoint.job.map_use == MapUse::Extend);
     out.putText(checkpoint.state);
+    if (!checkpoint.job.sensor_label.empty()) out.putText(checkpoint.job.sensor_label);
     return out.bytes();
 }
 
@@ -55,6 +56,7 @@ Checkpoint decoded(ByteReader& in, const std::string& path) {
     checkpoint.job.map_folder = in.getText();
     checkpoint.job.map_use = in.get<std::uint8_t>() ? MapUse::Extend : MapUse::Localise;
     checkpoint.state = in.getText();
+    if (in.left() > 0) checkpoint.job.sensor_label = in.getText();
     return checkpoint;
 }
 

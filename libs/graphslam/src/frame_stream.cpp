@@ -1,10 +1,15 @@
 #include "rgbd_graphslam/graphslam/frame_stream.h"
 
+#include <mrpt/obs/CObservationComment.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CObservationRobotPose.h>
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <deque>
+#include <exception>
 #include <future>
 #include <mutex>
 #include <thread>
@@ -43,15 +48,30 @@ void checkStamp(const CObservation3DRangeScan& frame, std::size_t index) {
 
 class FrameStream::Implementation {
   public:
-    Implementation(const std::string& rawlog, const RunOptions& options)
+    Implementation(const std::string& rawlog, const RunOptions& options,
+                   const std::string& sensor_label)
         : options_(options),
+          sensor_label_(sensor_label),
           reader_(rawlog),
           queue_(static_cast<std::size_t>(options.frames_ahead)) {
-        pending_ = readFrame();
-        if (!pending_) {
-            throw Error("the rawlog '" + rawlog + "' has no RGB-D frame (CObservation3DRangeScan)",
-                        "import a sequence with rgbd-import");
+        auto frame = readFrame();
+        if (!frame) refuse(rawlog);
+        pending_.push_back(std::move(*frame));
+    }
+
+    std::vector<CObservation3DRangeScan::Ptr> lookAhead(std::size_t frames) {
+        try {
+            while (pending_.size() < frames) {
+                auto frame = readFrame();
+                if (!frame) break;
+                pending_.push_back(std::move(*frame));
+            }
+        } catch (...) {
+            damage_ = std::current_exception();
         }
+        std::vector<CObservation3DRangeScan::Ptr> observations;
+        for (const StreamedFrame& frame : pending_) observations.push_back(frame.observation);
+        return observations;
     }
 
     ~Implementation() { stop(); }
@@ -85,11 +105,28 @@ class FrameStream::Implementation {
     const StageTimes& times() const { return times_; }
     std::size_t expectedFrames() const { return expected_frames_; }
     Trajectory truth() const {
-        const std::lock_guard<std::mutex> lock(truth_access_);
+        const std::lock_guard<std::mutex> lock(notes_access_);
         return truth_;
+    }
+    std::vector<SensorRecord> sensors() const {
+        const std::lock_guard<std::mutex> lock(notes_access_);
+        return census_.sensors();
     }
 
   private:
+    /** \throws Error saying what the rawlog has in place of frames of the camera asked for */
+    [[noreturn]] void refuse(const std::string& rawlog) const {
+        const std::string holds = "; it has " + sensorsText(census_.sensors(), false);
+        if (sensor_label_.empty()) {
+            throw Error(
+                "the rawlog '" + rawlog + "' has no RGB-D frame (CObservation3DRangeScan)" + holds,
+                "import a sequence with rgbd-import");
+        }
+        throw Error(
+            "the rawlog '" + rawlog + "' has no RGB-D camera '" + sensor_label_ + "'" + holds,
+            "give --sensor the label of an RGB-D camera, or leave it out");
+    }
+
     void work() {
         while (workOnOne()) continue;
         if (--busy_workers_ == 0) queue_.close();
@@ -125,8 +162,13 @@ class FrameStream::Implementation {
     }
 
     std::optional<StreamedFrame> takeFrame() {
-        if (pending_) return std::exchange(pending_, std::nullopt);
         std::optional<StreamedFrame> frame;
+        if (!pending_.empty()) {
+            frame = std::move(pending_.front());
+            pending_.pop_front();
+            return frame;
+        }
+        if (damage_) std::rethrow_exception(std::exchange(damage_, nullptr));
         times_.measure("read", [&] { frame = readFrame(); });
         return frame;
     }
@@ -135,15 +177,14 @@ class FrameStream::Implementation {
         if (ended_) return std::nullopt;
         ended_ = true;  // for good, should reading throw
         while (const auto observation = reader_.next()) {
-            noteTruth(*observation);
-            reckoner_.note(*observation);
             auto frame = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation);
+            if (!first_ && frame && isWanted(*frame)) first_ = frame;
+            note(*observation);
             if (!frame) {
                 before_.push_back(observation);
                 continue;
             }
-            if (!first_) first_ = frame;
-            if (frame->sensorLabel != first_->sensorLabel) continue;  // another camera
+            if (!first_ || frame->sensorLabel != first_->sensorLabel) continue;  // another camera
             ended_ = false;
             const std::size_t index = frames_read_++;
             checkStamp(*frame, index);
@@ -156,12 +197,34 @@ class FrameStream::Implementation {
         return std::nullopt;
     }
 
+    bool isWanted(const CObservation3DRangeScan& frame) const {
+        return sensor_label_.empty() || frame.sensorLabel == sensor_label_;
+    }
+
+    void note(const mrpt::obs::CObservation& observation) {
+        reckoner_.note(observation);
+        const std::lock_guard<std::mutex> lock(notes_access_);
+        noteTruth(observation);
+        census_.note(observation, isUsed(observation));
+    }
+
+    /** Wheels, IMU, truth, the stamps in comments, and the frames themselves. */
+    bool isUsed(const mrpt::obs::CObservation& observation) const {
+        using namespace mrpt::obs;
+        if (dynamic_cast<const CObservation3DRangeScan*>(&observation))
+            return first_ && observation.sensorLabel == first_->sensorLabel;
+        if (dynamic_cast<const CObservationRobotPose*>(&observation))
+            return observation.sensorLabel == ground_truth_label;
+        return dynamic_cast<const CObservationIMU*>(&observation) ||
+               dynamic_cast<const CObservationOdometry*>(&observation) ||
+               dynamic_cast<const CObservationComment*>(&observation);
+    }
+
     void noteTruth(const mrpt::obs::CObservation& observation) {
         const auto* pose = dynamic_cast<const mrpt::obs::CObservationRobotPose*>(&observation);
         if (!pose || pose->sensorLabel != ground_truth_label) return;
         const SE3 T_truth_robot = toSE3(pose->pose.mean);
         if (!T_truth_robot.R.allFinite() || !T_truth_robot.t.allFinite()) return;
-        const std::lock_guard<std::mutex> lock(truth_access_);
         truth_.push_back({toSeconds(pose->timestamp), T_truth_robot});
     }
 
@@ -174,6 +237,7 @@ class FrameStream::Implementation {
     }
 
     const RunOptions options_;
+    const std::string sensor_label_;
     StageTimes times_;
     Prepare prepare_;
 
@@ -182,12 +246,14 @@ class FrameStream::Implementation {
     DeadReckoner reckoner_;
     std::vector<mrpt::obs::CObservation::Ptr> before_;
     bool ended_ = false;
-    std::optional<StreamedFrame> pending_;
+    std::deque<StreamedFrame> pending_;
+    std::exception_ptr damage_;  // behind the pending frames
     CObservation3DRangeScan::Ptr first_;
     std::size_t frames_read_ = 0;
 
-    mutable std::mutex truth_access_;
+    mutable std::mutex notes_access_;
     Trajectory truth_;
+    SensorCensus census_;
     std::atomic<std::size_t> expected_frames_{0};
 
     BoundedQueue<std::future<StreamedFrame>> queue_;
@@ -195,13 +261,18 @@ class FrameStream::Implementation {
     std::vector<std::thread> workers_;
 };
 
-FrameStream::FrameStream(const std::string& rawlog, const RunOptions& options)
-    : impl_(std::make_unique<Implementation>(rawlog, options)) {}
+FrameStream::FrameStream(const std::string& rawlog, const RunOptions& options,
+                         const std::string& sensor_label)
+    : impl_(std::make_unique<Implementation>(rawlog, options, sensor_label)) {}
 
 FrameStream::~FrameStream() = default;
 
 const CObservation3DRangeScan& FrameStream::firstFrame() const {
     return impl_->firstFrame();
+}
+
+std::vector<CObservation3DRangeScan::Ptr> FrameStream::lookAhead(std::size_t frames) {
+    return impl_->lookAhead(frames);
 }
 
 std::optional<StreamedFrame> FrameStream::skip() {
@@ -226,6 +297,10 @@ std::size_t FrameStream::expectedFrames() const {
 
 Trajectory FrameStream::truth() const {
     return impl_->truth();
+}
+
+std::vector<SensorRecord> FrameStream::sensors() const {
+    return impl_->sensors();
 }
 
 const StageTimes& FrameStream::times() const {

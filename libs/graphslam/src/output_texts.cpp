@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "rgbd_graphslam/core/formatted.h"
+#include "rgbd_graphslam/core/printable_text.h"
 #include "rgbd_graphslam/evaluation/statistics.h"
 #include "run_origin.h"
 
@@ -76,6 +77,62 @@ Json earlierJson(const JobReport& report) {
     return sessions;
 }
 
+Json spreadJson(const RunQuality& quality) {
+    if (!quality.spread) return nullptr;
+    return {{"surfaces", quality.spread->surfaces},
+            {"median_mm", 1e3 * quality.spread->median_m},
+            {"p95_mm", 1e3 * quality.spread->p95_m}};
+}
+
+Json loopResidualsJson(const RunQuality& quality) {
+    if (!quality.loops) return nullptr;
+    return {{"median_mm", 1e3 * quality.loops->median_m},
+            {"max_mm", 1e3 * quality.loops->max_m},
+            {"median_deg", quality.loops->median_deg},
+            {"max_deg", quality.loops->max_deg}};
+}
+
+Json driftJson(const RunQuality& quality) {
+    if (!quality.drift) return nullptr;
+    return {{"gap_m", quality.drift->gap_m},
+            {"path_m", quality.drift->path_m},
+            {"percent", 100 * quality.drift->share()}};
+}
+
+Json readoutJson(const RunQuality& quality) {
+    if (!quality.readout) return nullptr;
+    return {{"readout_ms", 1e3 * quality.readout->seconds},
+            {"sigma_ms", 1e3 * quality.readout->sigma_s},
+            {"detected", isRollingShutter(*quality.readout)}};
+}
+
+Json qualityJson(const RunQuality& quality) {
+    return {{"frames",
+             {{"tracked", quality.tracked},
+              {"recovered", quality.recovered},
+              {"weak", quality.weak},
+              {"lost", quality.lost}}},
+            {"inliers", {{"median", quality.inliers_median}, {"p05", quality.inliers_p05}}},
+            {"depth_coverage", quality.depth_median ? Json{{"median", *quality.depth_median},
+                                                           {"p05", orNull(quality.depth_p05)}}
+                                                    : Json(nullptr)},
+            {"surface_spread", spreadJson(quality)},
+            {"loop_residuals", loopResidualsJson(quality)},
+            {"drift_before_loops", driftJson(quality)},
+            {"rolling_shutter", readoutJson(quality)}};
+}
+
+Json sensorsJson(const JobReport& report) {
+    Json sensors = Json::array();
+    for (const SensorRecord& sensor : report.sensors) {
+        sensors.push_back({{"label", sensor.label},
+                           {"class", sensor.class_name},
+                           {"count", sensor.count},
+                           {"used", sensor.used}});
+    }
+    return sensors;
+}
+
 }  // namespace
 
 StageFigures figuresOf(const std::vector<double>& ms) {
@@ -121,6 +178,8 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"config_hash", configHash(job.options)},
         {"origin", originJson(report.camera)},
         {"rawlog", std::filesystem::absolute(job.rawlog).lexically_normal().string()},
+        {"sensor", job.sensor_label.empty() ? Json(nullptr) : Json(job.sensor_label)},
+        {"sensors", sensorsJson(report)},
         {"map", mapJson(job)},
         {"earlier_sessions", earlierJson(report)},
         {"interrupted", report.interrupted},
@@ -144,6 +203,7 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"loop_edges", loopEdgesJson(report)},
         {"path_m", report.path_m},
         {"ate", ateJson(report)},
+        {"quality", qualityJson(report.quality)},
         {"frames_per_s", report.framesPerSecond()},
         {"cpu_ms_a_frame", report.cpuMsAFrame()},
         {"tracking_wall_s", report.tracking_wall_s},
@@ -153,6 +213,17 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
     // Names of files may be no UTF-8, which JSON cannot hold.
     return summary.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
+
+namespace {
+
+std::string sensorsLine(const std::vector<SensorRecord>& sensors) {
+    const bool all_used =
+        std::all_of(sensors.begin(), sensors.end(), [](const auto& s) { return s.used; });
+    return sensorsText(sensors, true) +
+           (all_used ? std::string() : "; not used: " + sensorsText(sensors, false));
+}
+
+}  // namespace
 
 std::string resultTable(const SlamJob& job, const JobReport& report) {
     std::string text =
@@ -165,12 +236,14 @@ std::string resultTable(const SlamJob& job, const JobReport& report) {
     if (report.out_of_order > 0) {
         text += formatted("left out      %zu frames out of order\n", report.out_of_order);
     }
+    text += "sensors       " + printableLine(sensorsLine(report.sensors)) + "\n";
     text += formatted("keyframes     %zu\nloops         %zu\npath          %.2f m\n",
                       report.keyframes, report.loops.size(), report.path_m);
     if (report.ate_rmse_m) {
         text += formatted("ATE RMSE      %.4f m over %zu poses\n", *report.ate_rmse_m,
                           report.ate_pairs);
     }
+    text += "quality       " + qualityText(report.quality) + "\n";
     text += formatted("speed         %.1f frames/s, %.1f ms CPU a frame\n",
                       report.framesPerSecond(), report.cpuMsAFrame());
     text += formatted("peak memory   %.0f MB\n", report.peak_memory_mb);

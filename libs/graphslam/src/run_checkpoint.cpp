@@ -2,6 +2,7 @@
 
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/core/thread_clock.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
@@ -94,8 +95,7 @@ std::string encodeRun(const RunState& run) {
 void writeCheckpoint(const RunState& run, CheckpointWriter& writer) {
     const ThreadClock clock;
     std::string state = encodeRun(run);
-    sayDetail("checkpoint: " + std::to_string(state.size() / 1000) + " kB in " +
-              std::to_string(clock.cpuMs()) + " ms");
+    sayDetail(formatted("checkpoint: %zu kB in %.1f ms", state.size() / 1000, clock.cpuMs()));
     writer.write(run.progress(), std::move(state));
 }
 

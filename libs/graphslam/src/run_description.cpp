@@ -4,6 +4,7 @@
 #include <map>
 
 #include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/report/run_findings.h"
 #include "truth_comparison.h"
 
 namespace rgbd_graphslam {
@@ -55,6 +56,14 @@ void describeMap(RunState& run) {
     }
 }
 
+void describeSensors(RunState& run) {
+    run.report.sensors = run.stream.sensors();
+    const std::string cameras = severalCamerasText(run.report.sensors);
+    if (cameras.empty() || !run.job.sensor_label.empty()) return;
+    sayWarning("the rawlog has several RGB-D cameras: " + cameras +
+               "; --sensor LABEL chooses another");
+}
+
 void describeEarlierSessions(RunState& run) {
     const auto all = run.sessions();
     for (std::size_t s = 0; s + 1 < all.size(); ++s) {
@@ -95,6 +104,8 @@ void evaluate(const Trajectory& estimate, const Trajectory& truth, RunState& run
     run.report.ate_rmse_m = comparison->ate.translation_m.rmse;
     run.report.ate_pairs = comparison->ate.pairs.size();
     run.report.ate_fitted_scale = comparison->ate.fitted_scale;
+    const std::string scale = depthScaleFinding(comparison->ate);
+    if (!scale.empty()) sayWarning(scale);
     run.truth = comparison->truth;
 }
 
@@ -108,6 +119,7 @@ void collectStages(RunState& run) {
 
 void describeRun(RunState& run) {
     const VisualSlam& slam = run.session.slam();
+    describeSensors(run);
     run.part = run.start ? slam.keyframes().front().part : largestPart(slam.frames());
     countFrames(run);
     describeEarlierSessions(run);
@@ -116,6 +128,8 @@ void describeRun(RunState& run) {
     run.report.path_m = pathLength(estimate);
     describeLoops(truth, run);
     evaluate(estimate, truth, run);
+    run.report.quality = frameQuality(slam.frames());
+    run.report.quality.loops = loopResiduals(slam.loops(), slam.keyframes());
     collectStages(run);
 }
 

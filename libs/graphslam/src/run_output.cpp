@@ -8,8 +8,10 @@
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/core/process_usage.h"
 #include "rgbd_graphslam/core/thread_clock.h"
+#include "rgbd_graphslam/evaluation/statistics.h"
 #include "rgbd_graphslam/mapping/map_builder.h"
 #include "rgbd_graphslam/report/run_report.h"
 
@@ -31,6 +33,7 @@ Trajectory chained(Trajectory keyframes, const std::vector<SE3>& T_previous_keyf
 MapInputs mapInputs(const RunState& run) {
     MapInputs inputs;
     inputs.rawlog = run.job.rawlog;
+    inputs.sensor_label = run.job.sensor_label;
     inputs.earlier = run.report.earlier;
     inputs.trajectory = run.located();
     inputs.unplaced_s = run.unplaced();
@@ -86,6 +89,21 @@ void removePosesOfEarlierRun(const RunState& run) {
                 "check depth scale and calibration, and that the camera sees texture");
 }
 
+/** What the keyframes' images and their places in the finished map say of its quality. */
+void describeMapQuality(const MapInputs& inputs, const MapSnapshot& map, RunState& run) {
+    RunQuality& quality = run.report.quality;
+    quality.drift = driftBeforeLoops(map.loops, inputs.keyframes_before_loops, map.keyframes);
+    quality.readout = estimateReadoutTime(map, inputs.trajectory);
+    const std::string shutter = rollingShutterFinding(quality);
+    if (!shutter.empty()) sayWarning(shutter);
+    if (run.start) return;  // only the new keyframes were looked at
+    const SurfaceSpread spread = surfaceSpread(run.level.surfacesInWorld(inputs));
+    if (spread.surfaces > 0) quality.spread = spread;
+    if (run.depth_shares.empty()) return;
+    quality.depth_median = percentileOf(run.depth_shares, 0.5);
+    quality.depth_p05 = percentileOf(run.depth_shares, 0.05);
+}
+
 void writeMap(RunState& run) {
     writeTextAtomically(pathOf(run, "covisibility.csv"),
                         covisibilityCsv(run.report.covisibility_edges));
@@ -93,12 +111,15 @@ void writeMap(RunState& run) {
     if (inputs.keyframes.empty()) refuseEmptyMap(run);
     const SE3 T_up_world = run.start ? run.start->T_up_world
                                      : run.level.uprightFromWorld(inputs, run.session.T_base_cam());
+    MapSnapshot map = run.session.slam().snapshot();
+    const ThreadClock quality_clock;
+    describeMapQuality(inputs, map, run);
+    sayDetail(formatted("figures of quality took %.0f ms", quality_clock.wallMs()));
     const MapInputs upright = transformed(T_up_world, inputs);
     writeAllPoses(run, upright, T_up_world);
-    MapSnapshot snapshot = run.session.slam().snapshot();
-    run.report.camera = snapshot.camera;
+    run.report.camera = map.camera;
     writeSparseMap(pathOf(run, sparse_map_name),
-                   {std::move(snapshot), T_up_world, configHash(run.job.options), run.sessions()});
+                   {std::move(map), T_up_world, configHash(run.job.options), run.sessions()});
     const ThreadClock clock;
     if (run.job.options.run.dense_maps) {
         writeMaps(upright, run.job.options.maps, run.job.out_folder);
@@ -112,7 +133,7 @@ void writeReport(const RunState& run) {
         return cv::imwrite(temporary, run.keyframe_sheet.picture(), {cv::IMWRITE_JPEG_QUALITY, 80});
     });
     writeRunReport(run.job.out_folder, run.job.out_folder);
-    sayDetail("report.html took " + std::to_string(clock.wallMs()) + " ms");
+    sayDetail(formatted("report.html took %.0f ms", clock.wallMs()));
 }
 
 }  // namespace

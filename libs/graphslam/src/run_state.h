@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "recording_survey.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/graphslam/frame_stream.h"
 #include "rgbd_graphslam/graphslam/graph_slam_session.h"
@@ -18,8 +19,7 @@ namespace rgbd_graphslam {
 /** A job's memory: tracking fills it, a checkpoint saves it, the description completes the report,
  *  and the outputs are made of it. */
 struct RunState {
-    /** \param slam_job must outlive it
-     *  \param start_map the map that the job starts from, if any; its snapshot goes to the session
+    /** \param start_map the map that the job starts from, if any; its snapshot goes to the session
      *  \throws Error when the rawlog has no RGB-D frame or the map does not fit it */
     RunState(const SlamJob& slam_job, std::optional<SparseMap> start_map);
     /** Frames read ahead are prepared by the session, which goes before the stream. */
@@ -47,9 +47,10 @@ struct RunState {
     /** Stamps of all other frames, rising. */
     std::vector<double> unplaced() const;
 
-    const SlamJob& job;
+    SlamJob job;  // with what its settings leave open decided
     std::optional<SparseMap> start;
     FrameStream stream;
+    RecordingSurvey survey;
     GraphSlamSession session;
     WarningRecord warnings;
     std::vector<std::string> earlier_warnings;  // before the checkpoint
@@ -59,6 +60,7 @@ struct RunState {
     int first_keyframe = 0;                // of this rawlog
     int part = 0;                          // of the map that is written
     std::vector<SE3> T_previous_keyframe;  // one a keyframe, the identity for the first
+    std::vector<double> depth_shares;      // of the pixels of each keyframe
     KeyframeSheet keyframe_sheet;
     LevelSurvey level;
     SensorWatch sensors;

@@ -1,6 +1,8 @@
 #include "rgbd_graphslam/graphslam/slam_job.h"
 
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "checkpoint.h"
 #include "rgbd_graphslam/core/atomic_file.h"
@@ -27,14 +29,48 @@ void checkFolders(const SlamJob& job) {
                 "choose another output folder");
 }
 
+/** Images of earlier sessions are looked for by the first camera only. */
+void checkCamera(const SlamJob& job) {
+    if (job.sensor_label.empty() || job.map_use != MapUse::Extend || job.map_folder.empty()) return;
+    throw Error("--extend works with the first RGB-D camera of a rawlog only, not with --sensor",
+                "leave out --sensor, or --localize");
+}
+
+/** \throws Error when the job is strict and the recording makes a wrong map */
+void tellOfRecording(const RunState& run) {
+    sayDetail("depth: " + toText(run.survey.depth()));
+    const std::string cameras = severalCamerasText(run.stream.sensors());
+    if (!cameras.empty()) sayInfo("RGB-D cameras: " + cameras + "; --sensor LABEL chooses another");
+    for (const SurveyWarning& warning :
+         run.survey.warnings(run.job.options.slam.features, run.job.options.maps)) {
+        if (run.job.strict && warning.refuses) {
+            throw Error("refused by --strict: " + warning.text,
+                        "run without --strict to map it all the same");
+        }
+        sayWarning(warning.text);
+    }
+}
+
 std::optional<SparseMap> readStart(const SlamJob& job) {
     if (job.map_folder.empty() || job.resume) return std::nullopt;
     return readSparseMap(job.map_folder + "/" + sparse_map_name);
 }
 
+/** Whether the run in a folder has come to its end. */
+bool isComplete(const std::string& folder) {
+    if (std::filesystem::exists(checkpointPath(folder))) return false;
+    std::ifstream in(folder + "/summary.json");
+    const auto summary = nlohmann::json::parse(in, nullptr, false);
+    return summary.is_object() && summary.value("interrupted", nlohmann::json()) == false;
+}
+
 }  // namespace
 
 SlamJob resumedJob(const std::string& out_folder) {
+    if (isComplete(out_folder)) {
+        throw Error("the run in '" + out_folder + "' is already complete (no checkpoint)",
+                    "nothing to resume");
+    }
     SlamJob job = readCheckpoint(out_folder).job;
     job.resume = true;
     return job;
@@ -42,12 +78,17 @@ SlamJob resumedJob(const std::string& out_folder) {
 
 JobReport runSlamJob(const SlamJob& job) {
     checkFolders(job);
+    checkCamera(job);
     auto start = readStart(job);
     makeWritableFolder(job.out_folder);
     RunState run(job, std::move(start));
     TrackingLoop loop(run);
-    if (job.resume) goOnFromCheckpoint(run);
-    CheckpointWriter checkpoints(job, run.progress());
+    if (job.resume) {
+        goOnFromCheckpoint(run);
+    } else {
+        tellOfRecording(run);
+    }
+    CheckpointWriter checkpoints(run.job, run.progress());
     if (!job.resume) checkpoints.remove();  // of an earlier run
     if (job.view) launchViewer(job.out_folder);
     loop.track(checkpoints);

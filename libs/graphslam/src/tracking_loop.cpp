@@ -4,6 +4,7 @@
 
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/core/process_usage.h"
 #include "rgbd_graphslam/core/progress.h"
 #include "rgbd_graphslam/core/thread_clock.h"
@@ -71,8 +72,10 @@ bool TrackingLoop::takesItsTurn(const StreamedFrame& frame) {
     const double stamp_s = frame.prepared.stamp_s;
     if (!run_.last_stamp_s || stamp_s > *run_.last_stamp_s) return true;
     if (run_.report.out_of_order++ == 0) {
-        sayWarning("frame " + std::to_string(frame.index) + " at " + std::to_string(stamp_s) +
-                   " s is not later than the one before and is left out, as are all such");
+        sayWarning(
+            formatted("frame %zu at %.6f s is not later than the one before; it and all "
+                      "others like it are left out",
+                      frame.index, stamp_s));
     }
     return false;
 }

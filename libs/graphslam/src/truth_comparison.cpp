@@ -12,7 +12,7 @@ constexpr double longest_gap_s = 0.1;
 
 std::optional<TruthComparison> compareWithTruth(const Trajectory& estimate,
                                                 const Trajectory& truth) {
-    if (truth.empty()) return std::nullopt;
+    if (truth.empty() || estimate.empty()) return std::nullopt;
     try {
         TruthComparison comparison{evaluateAte(estimate, truth), {}};
         const SE3 T_estimate_truth = comparison.ate.alignment.motion.inverse();

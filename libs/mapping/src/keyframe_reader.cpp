@@ -49,10 +49,13 @@ SE3 depthPose(const StampedPose& keyframe, double depth_stamp_s, const Trajector
     return keyframe.T_world_cam * (T_color->inverse() * *T_depth);
 }
 
-std::size_t forEachKeyframe(const std::string& rawlog, const Trajectory& keyframes,
+std::size_t forEachKeyframe(const RecordedCamera& camera, const Trajectory& keyframes,
                             const std::string& label,
                             const std::function<void(const Keyframe3D&)>& consume,
                             const std::function<void(const CObservation&)>& note) {
+    const std::string& rawlog = camera.rawlog;
+    std::optional<std::string> sensor_label;
+    if (!camera.sensor_label.empty()) sensor_label = camera.sensor_label;
     RawlogReader reader(rawlog);
     Progress progress(label, keyframes.size(), "keyframes");
     DepthStamps depth_stamps;
@@ -73,7 +76,9 @@ std::size_t forEachKeyframe(const std::string& rawlog, const Trajectory& keyfram
         if (note) note(*observation);
         const auto frame =
             std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation);
-        if (!frame || !frame->hasRangeImage) continue;
+        if (!frame) continue;
+        if (!sensor_label) sensor_label = frame->sensorLabel;
+        if (frame->sensorLabel != *sensor_label || !frame->hasRangeImage) continue;
         const auto index = indexAt(keyframes, toSeconds(frame->timestamp));
         if (!index || seen[*index]) continue;
         const StampedPose& pose = keyframes[*index];

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/dataset/accelerometer_check.h"
 #include "rgbd_graphslam/dataset/inertial_reading.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
@@ -46,6 +47,29 @@ std::size_t stepFor(std::size_t keyframes) {
     return step;
 }
 
+std::vector<SurfacePatch> allPatches(const std::vector<SurfaceView>& views) {
+    std::vector<SurfacePatch> patches;
+    for (const SurfaceView& view : views) {
+        patches.insert(patches.end(), view.patches.begin(), view.patches.end());
+    }
+    return patches;
+}
+
+void tellOfFloor(const std::optional<Floor>& floor) {
+    if (!floor) {
+        sayWarning("no floor found: no level surface was seen, so z = 0 is at the first camera");
+    } else if (floor->share_below > most_below_floor) {
+        sayWarning(
+            formatted("floor uncertain: %.0f %% of the surfaces seen are below the level "
+                      "surface at z = 0; the floor may mirror or give no depth, so heights "
+                      "and grid may be wrong",
+                      100 * floor->share_below));
+    } else {
+        sayDetail(formatted("%.1f %% of the surfaces seen are below the floor",
+                            100 * floor->share_below));
+    }
+}
+
 }  // namespace
 
 void LevelSurvey::note(const mrpt::obs::CObservation& observation) {
@@ -77,26 +101,28 @@ void LevelSurvey::addKeyframe(std::size_t number, const RgbdImage& image, const 
 
 SE3 LevelSurvey::uprightFromWorld(const MapInputs& inputs, const SE3& T_base_cam) const {
     const MapInputs kept = withoutApart(inputs);
-    const auto patches = patchesInWorld(inputs);
-    const Eigen::Vector3d up = findUp(kept, patches, T_base_cam);
-    const auto floor = floorHeight(patches, up);
-    if (!floor) sayWarning("no level surface was seen: the first camera is taken to be at z = 0");
+    const auto views = surfacesInWorld(inputs);
+    const Eigen::Vector3d up = findUp(kept, allPatches(views), T_base_cam);
+    const auto floor = findFloor(views, up);
+    tellOfFloor(floor);
     const SE3& T_first = kept.keyframes.front().T_world_cam;
-    return uprightFrame(up, floor.value_or(up.dot(T_first.t)), T_first);
+    return uprightFrame(up, floor ? floor->height_m : up.dot(T_first.t), T_first);
 }
 
-std::vector<SurfacePatch> LevelSurvey::patchesInWorld(const MapInputs& inputs) const {
-    std::vector<SurfacePatch> patches;
+std::vector<SurfaceView> LevelSurvey::surfacesInWorld(const MapInputs& inputs) const {
+    std::vector<SurfaceView> all;
     for (const SurveyedKeyframe& keyframe : keyframes_) {
         const int number = static_cast<int>(keyframe.number);
         if (std::binary_search(inputs.apart.begin(), inputs.apart.end(), number)) continue;
         const SE3 T_world_cam =
             depthPose(inputs.keyframes[keyframe.number], keyframe.depth_stamp_s, inputs.trajectory);
+        std::vector<SurfacePatch>& patches = all.emplace_back().patches;
+        all.back().eye = T_world_cam.t;
         for (const SurfacePatch& patch : keyframe.patches) {
             patches.push_back({T_world_cam * patch.position, T_world_cam.R * patch.normal});
         }
     }
-    return patches;
+    return all;
 }
 
 std::vector<SpecificForce> LevelSurvey::forcesInCamera(const SE3& T_base_cam) const {
@@ -173,7 +199,7 @@ SE3 uprightFromWorld(const MapInputs& inputs, const MapOptions& options) {
         some.push_back(inputs.keyframes[k]);
     }
     forEachKeyframe(
-        inputs.rawlog, some, "finding the floor",
+        {inputs.rawlog, inputs.sensor_label}, some, "finding the floor",
         [&](const Keyframe3D& keyframe) {
             T_base_cam = keyframe.T_base_cam;
             survey.addKeyframe(step * keyframe.index, keyframe.image, keyframe.camera);

@@ -56,8 +56,8 @@ struct Maps {
 };
 
 std::size_t addSession(Maps& maps, const MapInputs& inputs, const MapOptions& options,
-                       const std::string& rawlog, const Trajectory& keyframes) {
-    return forEachKeyframe(rawlog, keyframes, "mapping", [&](const Keyframe3D& keyframe) {
+                       const RecordedCamera& camera, const Trajectory& keyframes) {
+    return forEachKeyframe(camera, keyframes, "mapping", [&](const Keyframe3D& keyframe) {
         maps.add(keyframe, inputs, options);
     });
 }
@@ -77,8 +77,8 @@ std::size_t addSessions(Maps& maps, const MapInputs& inputs, const MapOptions& o
         }
     }
     if (begin == inputs.keyframes.end()) return added;
-    return added +
-           addSession(maps, inputs, options, inputs.rawlog, {begin, inputs.keyframes.end()});
+    return added + addSession(maps, inputs, options, {inputs.rawlog, inputs.sensor_label},
+                              {begin, inputs.keyframes.end()});
 }
 
 /** A mesh of earlier maps would be of other poses: without a new one it goes, too. Last, so that

@@ -120,6 +120,8 @@ MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
     try {
         inputs.loops = loopsOf(summary);
         inputs.earlier = earlierSessionsOf(summary);
+        const auto label = summary.value("sensor", nlohmann::json());
+        if (label.is_string()) inputs.sensor_label = label.get<std::string>();
         inputs.apart = summary.value("apart_keyframes", std::vector<int>());
     } catch (const nlohmann::json::exception&) {
         throw Error("'loop_edges', 'earlier_sessions' or 'apart_keyframes' in '" +

@@ -50,7 +50,8 @@ std::size_t writeScans(const MapInputs& inputs, const MapOptions& options, doubl
         std::optional<RayTable> rays;
         auto about = provenance(poses.front().stamp_s);
         rawlog.write(about);
-        scans = forEachKeyframe(inputs.rawlog, poses, "scans", [&](const Keyframe3D& frame) {
+        const RecordedCamera camera(inputs.rawlog, inputs.sensor_label);
+        scans = forEachKeyframe(camera, poses, "scans", [&](const Keyframe3D& frame) {
             if (!rays) rays.emplace(frame.camera);
             const SE3 T_up_cam = depthPose(frame.pose, frame.depth_stamp_s, inputs.trajectory);
             const SE3 T_up_base = basePose(T_up_cam);

@@ -90,6 +90,19 @@ Eigen::Vector3d densest(const std::vector<const SurfacePatch*>& patches) {
     return best;
 }
 
+/** Of the level patches in a bin and the ones beside it. */
+double medianHeight(const std::vector<SurfacePatch>& patches, const Eigen::Vector3d& up, int bin) {
+    std::vector<double> heights;
+    for (const auto& patch : patches) {
+        const double height = patch.position.dot(up);
+        const bool near = std::abs(height / bin_m - (bin + 0.5)) <= 1.5;
+        if (near && patch.normal.dot(up) >= level_cos) heights.push_back(height);
+    }
+    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+    std::nth_element(heights.begin(), middle, heights.end());
+    return *middle;
+}
+
 }  // namespace
 
 std::optional<Eigen::Vector3d> upFromAccelerometer(const std::vector<SpecificForce>& readings,
@@ -136,14 +149,13 @@ std::optional<Eigen::Vector3d> upFromFloor(const std::vector<SurfacePatch>& patc
     return up;
 }
 
-std::optional<double> floorHeight(const std::vector<SurfacePatch>& patches,
-                                  const Eigen::Vector3d& up) {
+std::vector<double> levelHeights(const std::vector<SurfacePatch>& patches,
+                                 const Eigen::Vector3d& up) {
     std::map<int, int> histogram;
     for (const auto& patch : patches) {
         if (patch.normal.dot(up) < level_cos) continue;
         ++histogram[static_cast<int>(std::floor(patch.position.dot(up) / bin_m))];
     }
-    if (histogram.empty()) return std::nullopt;
     // A surface on a bin's boundary fills two, so three are taken together.
     const auto around = [&](int bin) {
         int count = 0;
@@ -155,20 +167,29 @@ std::optional<double> floorHeight(const std::vector<SurfacePatch>& patches,
     };
     int largest = 0;
     for (const auto& entry : histogram) largest = std::max(largest, around(entry.first));
-    // Of filled bins only: the one with the largest sum is among them, so one is always found.
-    const auto lowest = std::find_if(histogram.begin(), histogram.end(), [&](const auto& entry) {
-        const int next = histogram.count(entry.first + 1) ? around(entry.first + 1) : 0;
-        return around(entry.first) >= std::max<double>(least_of_largest * largest, next);
-    });
+    // Of filled bins only: the one with the largest sum is among them, so one is always found. What
+    // falls off above a surface's own bin belongs to it.
     std::vector<double> heights;
-    for (const auto& patch : patches) {
-        const double height = patch.position.dot(up);
-        const bool near = std::abs(height / bin_m - (lowest->first + 0.5)) <= 1.5;
-        if (near && patch.normal.dot(up) >= level_cos) heights.push_back(height);
+    bool rising = true;
+    int before = 0;
+    for (const auto& entry : histogram) {
+        const int here = around(entry.first);
+        const int next = histogram.count(entry.first + 1) ? around(entry.first + 1) : 0;
+        if (!histogram.count(entry.first - 1) || here > before) rising = true;
+        if (rising && here >= std::max<double>(least_of_largest * largest, next)) {
+            heights.push_back(medianHeight(patches, up, entry.first));
+            rising = false;
+        }
+        before = here;
     }
-    const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
-    std::nth_element(heights.begin(), middle, heights.end());
-    return *middle;
+    return heights;
+}
+
+std::optional<double> floorHeight(const std::vector<SurfacePatch>& patches,
+                                  const Eigen::Vector3d& up) {
+    const auto heights = levelHeights(patches, up);
+    if (heights.empty()) return std::nullopt;
+    return heights.front();
 }
 
 SE3 uprightFrame(const Eigen::Vector3d& up, double floor_m, const SE3& T_world_first) {

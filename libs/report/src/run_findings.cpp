@@ -9,6 +9,7 @@ namespace rgbd_graphslam {
 namespace {
 
 constexpr int few_landmarks = 50;
+constexpr const char* depth_scale_looks = "depth scale looks ";
 
 std::string framesText(std::size_t count) {
     return std::to_string(count) + (count == 1 ? " frame" : " frames");
@@ -75,12 +76,12 @@ class Findings {
     }
 
     void aboutDepthScale() {
-        const auto error = ate_ ? depthScaleError(*ate_) : std::nullopt;
-        if (!error) return;
-        warn(
-            formatted("depth scale looks %.1f %% too %s: against the ground truth depths fit best "
-                      "when multiplied by %.3f (depth_scale in camera.ini)",
-                      100 * std::abs(*error), *error > 0 ? "large" : "small", 1 / (1 + *error)));
+        const bool said = std::any_of(
+            run_.warnings.begin(), run_.warnings.end(),
+            [](const std::string& warning) { return warning.rfind(depth_scale_looks, 0) == 0; });
+        if (!ate_ || said) return;
+        const std::string text = depthScaleFinding(*ate_);
+        if (!text.empty()) warn(text);
     }
 
     void aboutLandmarks() {
@@ -143,7 +144,7 @@ std::vector<LostSpan> lostSpans(const std::vector<FrameRecord>& frames) {
 }
 
 std::optional<double> depthScaleError(const AteResult& ate) {
-    constexpr double least = 0.01, least_explained = 0.25;
+    constexpr double least = 0.01, least_explained = 0.25, least_rms_m = 0.005;
     if (!ate.fitted_scale || *ate.fitted_scale <= 0 || ate.pairs.empty()) return std::nullopt;
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
     for (const AtePair& pair : ate.pairs) mean += pair.aligned_m;
@@ -155,8 +156,20 @@ std::optional<double> depthScaleError(const AteResult& ate) {
     }
     // The sum of squares is a parabola in the scale, with `spread` before the square.
     const double off = *ate.fitted_scale - 1;
-    if (std::abs(off) < least || spread * off * off < least_explained * error) return std::nullopt;
+    const double rms_m = std::abs(off) * std::sqrt(spread / static_cast<double>(ate.pairs.size()));
+    if (std::abs(off) < least || rms_m < least_rms_m) return std::nullopt;
+    if (spread * off * off < least_explained * error) return std::nullopt;
     return 1 / *ate.fitted_scale - 1;
+}
+
+std::string depthScaleFinding(const AteResult& ate) {
+    const auto error = depthScaleError(ate);
+    if (!error) return {};
+    return depth_scale_looks +
+           formatted(
+               "%.1f %% too %s: against the ground truth, depths fit best when multiplied by "
+               "%.3f (depth_scale in camera.ini)",
+               100 * std::abs(*error), *error > 0 ? "large" : "small", 1 / (1 + *error));
 }
 
 std::vector<Finding> findingsOf(const RunRecord& run, const std::optional<AteResult>& ate) {

@@ -98,6 +98,34 @@ RunOrigin originOf(const Json& summary) {
     return origin;
 }
 
+/** \param path of names from the object inwards */
+std::optional<double> numberAt(const Json& object, std::initializer_list<const char*> path) {
+    const Json* value = &object;
+    for (const char* name : path) {
+        if (!value->is_object() || !value->contains(name)) return std::nullopt;
+        value = &value->at(name);
+    }
+    if (!value->is_number()) return std::nullopt;
+    return value->get<double>();
+}
+
+QualityRecord qualityOf(const Json& quality) {
+    QualityRecord record;
+    record.inliers_median = numberAt(quality, {"inliers", "median"});
+    record.inliers_p05 = numberAt(quality, {"inliers", "p05"});
+    record.depth_median = numberAt(quality, {"depth_coverage", "median"});
+    record.depth_p05 = numberAt(quality, {"depth_coverage", "p05"});
+    record.spread_median_mm = numberAt(quality, {"surface_spread", "median_mm"});
+    record.spread_p95_mm = numberAt(quality, {"surface_spread", "p95_mm"});
+    record.loop_median_mm = numberAt(quality, {"loop_residuals", "median_mm"});
+    record.loop_max_mm = numberAt(quality, {"loop_residuals", "max_mm"});
+    record.loop_median_deg = numberAt(quality, {"loop_residuals", "median_deg"});
+    record.loop_max_deg = numberAt(quality, {"loop_residuals", "max_deg"});
+    record.drift_gap_m = numberAt(quality, {"drift_before_loops", "gap_m"});
+    record.drift_path_m = numberAt(quality, {"drift_before_loops", "path_m"});
+    return record;
+}
+
 void readFigures(const Json& summary, RunRecord& run) {
     run.origin = originOf(summary);
     run.rawlog = textOf(summary, "rawlog");
@@ -121,6 +149,7 @@ void readFigures(const Json& summary, RunRecord& run) {
     for (const Json& edge : summary.at("loop_edges")) {
         run.loops.push_back({edge.at(0), edge.at(1), edge.at(2), loopErrorOf(edge)});
     }
+    run.quality = qualityOf(summary.value("quality", Json()));
     const Json ate = summary.value("ate", Json());
     if (!ate.is_null()) run.ate_rmse_m = ate.at("rmse_m").get<double>();
     const Json false_loops = summary.value("false_loops", Json());

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "page_template.h"
+#include "quality_section.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/formatted.h"
@@ -118,6 +119,7 @@ class Page {
                section("Obstacles and free space", grid()) +
                section("Trajectory from above", pathChart(run_)) +
                section("Loop closure", loops()) +
+               section("Quality without ground truth", qualitySection(run_)) +
                section("Error over time", ate_ ? errorChart(run_, *ate_) : std::string()) +
                section("Inliers", landmarkChart(run_)) +
                section("CPU time by stage", stages(), "wide") +

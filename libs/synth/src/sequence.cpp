@@ -1,5 +1,6 @@
 #include "rgbd_graphslam/synth/sequence.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
@@ -80,6 +81,23 @@ class Film {
         return sum * (1.0 / count);
     }
 
+    /** A picture whose rows are of different moments, if the shutter rolls: put together of bands
+     *  over which the picture moves by half a pixel. \param shoot the whole picture at a time */
+    template <class Shoot>
+    cv::Mat rolled(double t, Shoot shoot) {
+        if (options_.readout_s <= 0) return shoot(t);
+        const double moved = blur_px(t - options_.readout_s / 2, t + options_.readout_s / 2);
+        const int bands = std::clamp(static_cast<int>(std::ceil(2 * moved)), 4, 40);
+        cv::Mat picture;
+        for (int i = 0; i < bands; ++i) {
+            const cv::Mat whole = shoot(t + options_.readout_s * ((i + 0.5) / bands - 0.5));
+            if (i == 0) picture = cv::Mat(whole.size(), whole.type());
+            const cv::Range rows(i * whole.rows / bands, (i + 1) * whole.rows / bands);
+            whole.rowRange(rows).copyTo(picture.rowRange(rows));
+        }
+        return picture;
+    }
+
     void shootColor(int frame, double stamp) {
         const double t = stamp - kFirstStamp_s;
         const Exposure exposure = world_.exposure(t);
@@ -87,7 +105,8 @@ class Film {
         if (isCovered(world_, t))
             seen = cv::Mat(camera_.height, camera_.width, CV_32FC3, cv::Scalar(4, 3, 5));
         else
-            seen = exposed(t, options_.noise ? exposure.shutter_s : 0);
+            seen = rolled(
+                t, [&](double at) { return exposed(at, options_.noise ? exposure.shutter_s : 0); });
         jobs_.add([=, options = options_, path = folder_ + "/" + pictureName("rgb", stamp)] {
             const ColorSensorModel model =
                 options.noise ? ColorSensorModel{} : ColorSensorModel{0, 0};
@@ -98,13 +117,15 @@ class Film {
 
     void shootDepth(int frame, double stamp) {
         const double t = stamp - kFirstStamp_s;
-        placeFigures(t);
         cv::Mat seen;
         if (isCovered(world_, t))
             seen = cv::Mat::zeros(camera_.height, camera_.width, CV_32FC1);
         else
-            seen =
-                renderer_.depth(world_.motion.T_world_cam(t), {options_.registration_error_px, 0});
+            seen = rolled(t, [&](double at) {
+                placeFigures(at);
+                return renderer_.depth(world_.motion.T_world_cam(at),
+                                       {options_.registration_error_px, 0});
+            });
         jobs_.add([=, options = options_, camera = camera_,
                    path = folder_ + "/" + pictureName("depth", stamp)] {
             const Random random = Random::of(options.seed, kDepthNoise, frame);

@@ -3,7 +3,6 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "rgbd_graphslam/core/console.h"
-#include "rgbd_graphslam/mapping/keyframe_reader.h"
 #include "rgbd_graphslam/viewer/keyframe_view.h"
 
 namespace rgbd_graphslam {
@@ -34,8 +33,8 @@ KeyframePicture pictureOf(const Keyframe3D& keyframe) {
 
 }  // namespace
 
-RecordingLoader::RecordingLoader(std::string rawlog, Trajectory keyframes)
-    : rawlog_(std::move(rawlog)), keyframes_(std::move(keyframes)), thread_([this] { read(); }) {}
+RecordingLoader::RecordingLoader(RecordedCamera camera, Trajectory keyframes)
+    : camera_(std::move(camera)), keyframes_(std::move(keyframes)), thread_([this] { read(); }) {}
 
 RecordingLoader::~RecordingLoader() {
     {
@@ -63,7 +62,7 @@ void RecordingLoader::read() {
 }
 
 void RecordingLoader::readPictures() {
-    forEachKeyframe(rawlog_, keyframes_, "images", [&](const Keyframe3D& keyframe) {
+    forEachKeyframe(camera_, keyframes_, "images", [&](const Keyframe3D& keyframe) {
         KeyframePicture picture = pictureOf(keyframe);
         const std::lock_guard lock(mutex_);
         if (stop_) throw Stopped();

@@ -132,6 +132,7 @@ void readPoses(const fs::path& folder, RunData& run) {
     MapInputs inputs = readInputs(folder.string());
     run.rawlog = std::move(inputs.rawlog);
     run.up_is_guessed = upIsGuessed(folder.string());
+    run.sensor_label = std::move(inputs.sensor_label);
     run.trajectory = std::move(inputs.trajectory);
     run.unplaced_s = std::move(inputs.unplaced_s);
     run.earlier_keyframes = sessionLengths(inputs);

@@ -55,7 +55,8 @@ void ViewerWindow::open(RunData run) {
     const bool has_recording = !run.rawlog.empty();
     loader_.reset();
     if (has_recording) {
-        loader_ = std::make_unique<RecordingLoader>(run.rawlog, run.keyframes);
+        loader_ = std::make_unique<RecordingLoader>(RecordedCamera(run.rawlog, run.sensor_label),
+                                                    run.keyframes);
     }
     all_read_ = !has_recording;
     camera_known_ = false;

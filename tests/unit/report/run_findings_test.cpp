@@ -66,6 +66,16 @@ TEST(Findings, depthScaleIsSaidInPercentAndAsAFactor) {
     EXPECT_THAT(warnings(run), Contains(HasSubstr("depth scale looks 5.0 % too small")));
 }
 
+TEST(Findings, whatTheRunHasSaidOfDepthIsNotSaidTwice) {
+    MadeRun run;
+    run.depth_factor = 1.035;
+    run.warnings = R"(["depth scale looks 3.4 % too large: multiply"])";
+    const auto all = warnings(run);
+    EXPECT_EQ(std::count_if(all.begin(), all.end(),
+                            [](const auto& text) { return text.find("depth scale") == 0; }),
+              1);
+}
+
 TEST(Findings, depthScaleIsNotBlamedForOtherErrors) {
     AteResult ate;
     ate.fitted_scale = 1.03;

@@ -16,7 +16,7 @@ struct MadeRun {
     bool with_truth = true, with_maps = true, with_loop = true;
     // JSON
     std::string warnings = "[]", loop_edges = "[[0, 5, 40, 0.01]]", false_loops = "0",
-                earlier_sessions = "[]", origin = "{}";
+                earlier_sessions = "[]", origin = "{}", quality = "{}";
 };
 
 constexpr double made_start_s = 1000;
@@ -37,7 +37,8 @@ inline std::string summaryText(const MadeRun& run) {
            ", \"interrupted\": false, \"damage\": null, \"warnings\": " + run.warnings +
            ", \"out_of_order\": 0, \"culled_keyframes\": 0, \"landmarks\": 700, " +
            "\"loop_edges\": " + (run.with_loop ? run.loop_edges : "[]") +
-           ", \"false_loops\": " + run.false_loops + ", \"ate\": {\"rmse_m\": 0.0123}" +
+           ", \"quality\": " + run.quality + ", \"false_loops\": " + run.false_loops +
+           ", \"ate\": {\"rmse_m\": 0.0123}" +
            ", \"path_m\": 12, \"frames_per_s\": 90, \"cpu_ms_a_frame\": 7, \"maps_wall_s\": 2, " +
            "\"peak_memory_mb\": 200, \"stages\": {\"track\": {\"calls\": 60, \"cpu_ms\": " +
            figures + ", \"wall_ms\": " + figures + "}}}";

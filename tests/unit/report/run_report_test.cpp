@@ -44,6 +44,20 @@ TEST(RunReport, leavesOutWhatThereIsNot) {
     }
 }
 
+TEST(RunReport, tellsTheQualityThatNeedsNoTruth) {
+    MadeRun run;
+    EXPECT_THAT(reportOf(run), Not(HasSubstr("Quality without ground truth")));  // of before
+    run.quality = R"({"inliers": {"median": 412, "p05": 77}, "depth_coverage": null,
+        "surface_spread": {"surfaces": 900, "median_mm": 3.14, "p95_mm": 9.2},
+        "drift_before_loops": {"gap_m": 0.05, "path_m": 10, "percent": 0.5}})";
+    const std::string page = reportOf(run);
+    EXPECT_THAT(page, HasSubstr("Quality without ground truth"));
+    EXPECT_THAT(page, HasSubstr("3.1 mm, 95 % within 9.2 mm"));
+    EXPECT_THAT(page, HasSubstr("0.050 m (0.50 % of 10.0 m)"));
+    EXPECT_THAT(page, HasSubstr("412, in 95 % of the frames above 77"));
+    EXPECT_THAT(page, Not(HasSubstr("pixels with depth")));
+}
+
 TEST(RunReport, hasItsPictureOfLoopsInAFile) {
     const TestFolder folder;
     makeRunFolder(folder, {});

@@ -4,6 +4,9 @@
 
 namespace rgbd_graphslam {
 
+/** Farther, the depth of indoor cameras is noise. */
+inline constexpr double default_depth_max_m = 10;
+
 struct FeatureOptions : Options {
     int count = 1000;
     int levels = 6;
@@ -12,8 +15,11 @@ struct FeatureOptions : Options {
     int fast_threshold_min = 3;
     int cell_px = 32;
     double depth_min_m = 0.2;
-    double depth_max_m = 10.0;
+    /** 0 = left open: rgbd-slam looks at the recording, else default_depth_max_m. */
+    double depth_max_m = 0;
     double depth_edge_step = 0.03;
+
+    double farthestDepthM() const { return depth_max_m > 0 ? depth_max_m : default_depth_max_m; }
 
     const char* section() const override { return "FeatureOptions"; }
     const char* about() const override { return "Keypoint detection, descriptors and depth"; }

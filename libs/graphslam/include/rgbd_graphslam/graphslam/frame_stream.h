@@ -13,6 +13,7 @@
 #include "rgbd_graphslam/geometry/rgbd_image.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 #include "rgbd_graphslam/graphslam/run_options.h"
+#include "rgbd_graphslam/graphslam/sensor_census.h"
 #include "rgbd_graphslam/slam/stage_times.h"
 
 namespace rgbd_graphslam {
@@ -36,13 +37,20 @@ class FrameStream {
     using Prepare = std::function<Frame(const RgbdImage&)>;
 
     /** Reads up to the first RGB-D frame.
-     *  \throws Error when the file is no rawlog or has no RGB-D frame */
-    FrameStream(const std::string& rawlog, const RunOptions& options);
+     *  \param sensor_label of the camera to take; empty = the one whose frame comes first
+     *  \throws Error when the file is no rawlog or has no RGB-D frame of that camera */
+    FrameStream(const std::string& rawlog, const RunOptions& options,
+                const std::string& sensor_label = {});
     ~FrameStream();
     FrameStream(const FrameStream&) = delete;
     FrameStream& operator=(const FrameStream&) = delete;
 
     const mrpt::obs::CObservation3DRangeScan& firstFrame() const;
+
+    /** Reads the next frames, or as many as there are, which next() hands out all the same; only
+     *  before start(). Damage in them is next()'s to tell.
+     *  \return their observations */
+    std::vector<mrpt::obs::CObservation3DRangeScan::Ptr> lookAhead(std::size_t frames);
 
     /** Reads over a frame; only before start(). \return it, not prepared, or nothing at the end
      *  \throws Error as next() */
@@ -65,6 +73,9 @@ class FrameStream {
 
     /** Ground truth read so far, robot poses in the truth's world. */
     Trajectory truth() const;
+
+    /** All that the rawlog holds as far as it is read. */
+    std::vector<SensorRecord> sensors() const;
 
     /** "read" and "decode". */
     const StageTimes& times() const;

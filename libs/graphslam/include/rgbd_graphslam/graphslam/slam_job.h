@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "rgbd_graphslam/graphslam/job_options.h"
+#include "rgbd_graphslam/graphslam/run_quality.h"
+#include "rgbd_graphslam/graphslam/sensor_census.h"
 #include "rgbd_graphslam/mapping/map_builder.h"
 #include "rgbd_graphslam/slam/visual_slam.h"
 
@@ -20,6 +22,10 @@ struct SlamJob {
     bool view = false;
     /** Goes on from the checkpoint in the output folder; see resumedJob(). */
     bool resume = false;
+    /** Of the RGB-D camera to track; empty = the one whose frame comes first. */
+    std::string sensor_label;
+    /** Refuses a recording whose map would be wrong, in place of a warning. */
+    bool strict = false;
 
     bool localises() const { return !map_folder.empty() && map_use == MapUse::Localise; }
 };
@@ -53,6 +59,9 @@ struct JobReport {
     /** Of the loops whose error is known, those beyond false_loop_m; nothing without truth. */
     std::optional<std::size_t> false_loops;
     std::vector<PoseEdge> covisibility_edges;
+    /** All that the rawlog holds, as far as it was read. */
+    std::vector<SensorRecord> sensors;
+    RunQuality quality;
     /** In such parts. */
     std::vector<int> apart_keyframes;
     /** Of a map that was extended. */
@@ -102,8 +111,11 @@ struct JobReport {
  *
  *  A rawlog that is cut off or damaged, SIGINT or SIGTERM, and the limits on keyframes and memory
  *  end the tracking; what was mapped by then is written and the report says so.
- *  \throws Error when the rawlog has no RGB-D frame, nothing could be mapped or located, the
- * earlier map cannot be read or does not fit, or the folder cannot be written */
+ *  Of the settings, what is left open (FeatureOptions::depth_max_m = 0) is decided by the first
+ *  frames and written as decided. What looks wrong about them is warned of; a strict job refuses
+ * it. \throws Error when the rawlog has no RGB-D frame, a strict job finds it wrong, nothing could
+ * be mapped or located, the earlier map cannot be read or does not fit, or the folder cannot be
+ * written */
 JobReport runSlamJob(const SlamJob& job);
 
 /** What the run in a folder was doing when it was killed or interrupted.

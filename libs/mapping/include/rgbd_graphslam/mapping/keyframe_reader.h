@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 
 #include "rgbd_graphslam/dataset/depth_stamps.h"
 #include "rgbd_graphslam/geometry/camera.h"
@@ -11,6 +12,15 @@
 #include "rgbd_graphslam/geometry/trajectory.h"
 
 namespace rgbd_graphslam {
+
+/** An RGB-D camera of a rawlog. */
+struct RecordedCamera {
+    RecordedCamera(std::string path, std::string label = {})
+        : rawlog(std::move(path)), sensor_label(std::move(label)) {}
+
+    std::string rawlog;
+    std::string sensor_label;  // empty = of the first frame
+};
 
 struct Keyframe3D {
     std::size_t index;  // in the trajectory given
@@ -23,12 +33,13 @@ struct Keyframe3D {
     SE3 T_base_cam;  // on the robot
 };
 
-/** One pass over the rawlog; calls consume for each frame whose stamp is that of a pose.
+/** One pass over the rawlog; calls consume for each of the camera's frames whose stamp is that of a
+ *  pose.
  *  \param label of the progress bar
  *  \param note gets every entry of the rawlog; without it, reading ends at the last keyframe
  *  \return how many poses found their frame
  *  \throws Error when not a single one did */
-std::size_t forEachKeyframe(const std::string& rawlog, const Trajectory& keyframes,
+std::size_t forEachKeyframe(const RecordedCamera& camera, const Trajectory& keyframes,
                             const std::string& label,
                             const std::function<void(const Keyframe3D&)>& consume,
                             const std::function<void(const mrpt::obs::CObservation&)>& note = {});

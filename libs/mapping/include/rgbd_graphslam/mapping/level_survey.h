@@ -9,6 +9,7 @@
 #include "rgbd_graphslam/dataset/depth_stamps.h"
 #include "rgbd_graphslam/dataset/rgbd_sequence.h"
 #include "rgbd_graphslam/dataset/sensor_verdict.h"
+#include "rgbd_graphslam/mapping/floor.h"
 #include "rgbd_graphslam/mapping/map_inputs.h"
 #include "rgbd_graphslam/mapping/map_options.h"
 #include "rgbd_graphslam/mapping/upright.h"
@@ -43,13 +44,16 @@ class LevelSurvey {
      *  \param T_base_cam the camera on the robot, whose axes the accelerometer's pose refers to */
     SE3 uprightFromWorld(const MapInputs& inputs, const SE3& T_base_cam) const;
 
+    /** The surfaces of each keyframe that is kept, in the world of the inputs; see
+     *  uprightFromWorld(). */
+    std::vector<SurfaceView> surfacesInWorld(const MapInputs& inputs) const;
+
   private:
     struct SurveyedKeyframe {
         std::size_t number;
         double depth_stamp_s;
         std::vector<SurfacePatch> patches;  // in the axes of the depth image
     };
-    std::vector<SurfacePatch> patchesInWorld(const MapInputs& inputs) const;
     std::vector<SpecificForce> forcesInCamera(const SE3& T_base_cam) const;
     std::optional<Eigen::Vector3d> upByAccelerometer(const Trajectory& poses,
                                                      const std::vector<SurfacePatch>& patches,

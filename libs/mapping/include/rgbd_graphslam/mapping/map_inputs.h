@@ -21,8 +21,9 @@ struct EarlierSession {
 
 /** What maps are made of. Poses are of the camera's optical frame. */
 struct MapInputs {
-    std::string rawlog;    // where the images are
-    Trajectory keyframes;  // the maps are made of these; in order of time within a session
+    std::string rawlog;        // where the images are
+    std::string sensor_label;  // of their camera; empty = that of the first frame
+    Trajectory keyframes;      // the maps are made of these; in order of time within a session
     /** Every frame; places depth images between colour stamps, and accelerometer readings. */
     Trajectory trajectory;
     /** Stamps of the frames that have no pose, rising; paths are not drawn across them. */

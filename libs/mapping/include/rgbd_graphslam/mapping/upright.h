@@ -39,6 +39,10 @@ std::vector<SurfacePatch> surfacePatches(const cv::Mat1f& depth, const RayTable&
 std::optional<Eigen::Vector3d> upFromFloor(const std::vector<SurfacePatch>& patches,
                                            const Eigen::Vector3d& guess, double cone);
 
+/** Heights along `up` of the level surfaces of some size, the lowest first. */
+std::vector<double> levelHeights(const std::vector<SurfacePatch>& patches,
+                                 const Eigen::Vector3d& up);
+
 /** Height along `up` of the lowest level surface of some size.
  *  \return nothing when no patch is level */
 std::optional<double> floorHeight(const std::vector<SurfacePatch>& patches,

@@ -24,8 +24,12 @@ std::vector<LostSpan> lostSpans(const std::vector<FrameRecord>& frames);
 
 /** By how much depths are too large (0.035 = 3.5 %; negative: too small), as the path against its
  *  truth shows it. Nothing when another scale would not explain at least a quarter of the squared
- *  error, or the scale is within 1 %: the error has other reasons then. */
+ *  error, the scale is within 1 %, or moves poses by less than 5 mm: the error has other reasons
+ *  then. */
 std::optional<double> depthScaleError(const AteResult& ate);
+
+/** The same in words, with the factor that mends it; empty where depthScaleError() is nothing. */
+std::string depthScaleFinding(const AteResult& ate);
 
 /** Warnings first. \param ate of the run against its truth, where that is known */
 std::vector<Finding> findingsOf(const RunRecord& run, const std::optional<AteResult>& ate);

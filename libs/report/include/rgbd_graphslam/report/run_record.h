@@ -39,6 +39,17 @@ struct RunOrigin {
     std::optional<Camera> camera;
 };
 
+/** What summary.json says of a run's quality without ground truth; what is missing there, because
+ *  it is not known or the run is of an earlier version, is nothing here. */
+struct QualityRecord {
+    std::optional<double> inliers_median, inliers_p05;
+    /** Share of a keyframe's pixels, 0 to 1. */
+    std::optional<double> depth_median, depth_p05;
+    std::optional<double> spread_median_mm, spread_p95_mm;
+    std::optional<double> loop_median_mm, loop_max_mm, loop_median_deg, loop_max_deg;
+    std::optional<double> drift_gap_m, drift_path_m;
+};
+
 struct RunRecord {
     RunOrigin origin;
     std::string rawlog, version, config_hash;
@@ -53,6 +64,7 @@ struct RunRecord {
     std::vector<FrameRecord> frames;
     std::vector<StageRecord> stages;
     std::vector<LoopRecord> loops;
+    QualityRecord quality;
     /** How many have an error that only a wrong place explains; nothing without truth. */
     std::optional<std::size_t> false_loops;
 

@@ -15,6 +15,9 @@ struct FilmOptions {
     int width = 640, height = 480;
     /** Depth pictures are shifted by this along x, as by a wrong calibration. */
     double registration_error_px = 0;
+    /** Rolling shutter: from the reading of the first row to that of the last, the middle row at
+     * the frame's stamp; 0 = global shutter. */
+    double readout_s = 0;
     int session = 1;
     /** Only every so many frames are filmed: a slower camera on the same way. */
     int every = 1;

@@ -10,6 +10,7 @@
 
 #include "rgbd_graphslam/geometry/camera.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/mapping/keyframe_reader.h"
 #include "rgbd_graphslam/viewer/vertex.h"
 
 namespace rgbd_graphslam {
@@ -25,7 +26,7 @@ struct KeyframePicture {
 class RecordingLoader {
   public:
     /** \param keyframes whose images are wanted */
-    RecordingLoader(std::string rawlog, Trajectory keyframes);
+    RecordingLoader(RecordedCamera camera, Trajectory keyframes);
     ~RecordingLoader();
 
     struct News {
@@ -40,7 +41,7 @@ class RecordingLoader {
     void read();
     void readPictures();
 
-    const std::string rawlog_;
+    const RecordedCamera camera_;
     const Trajectory keyframes_;
     std::mutex mutex_;
     News news_;

@@ -46,7 +46,8 @@ struct GridMap {
 struct RunData {
     /** Output folder; empty when only a cloud was opened. */
     std::string folder;
-    std::string rawlog;  // empty when it is gone
+    std::string rawlog;        // empty when it is gone
+    std::string sensor_label;  // of the camera, as MapInputs::sensor_label
     /** Neither an accelerometer nor a floor has said which way is up. */
     bool up_is_guessed = false;
     Trajectory trajectory, keyframes, keyframes_before_loops;
