@@ -5,12 +5,15 @@
 #include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/foreign_file.h"
+#include "rgbd_graphslam/dataset/intrinsics_file.h"
 #include "rgbd_graphslam/dataset/sensor_hints.h"
 #include "rgbd_graphslam/dataset/sensor_units.h"
 #include "rgbd_graphslam/dataset/sequence_archive.h"
 #include "rgbd_graphslam/dataset/sequence_import.h"
 #include "rgbd_graphslam/dataset/sequence_layout.h"
 #include "rgbd_graphslam/dataset/unpacked_bag.h"
+#include "rgbd_graphslam/dataset/unpacked_sens.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -55,7 +58,8 @@ SensorUnitValues sensorUnits(const Arguments& args) {
 }
 
 void declare(CLI::App& app, Arguments& args) {
-    app.add_option("DIR", args.source, "Folder of the sequence, its .tgz archive or ROS 1 .bag")
+    app.add_option("DIR", args.source,
+                   "Folder of the sequence, its .tgz archive, ROS 1 .bag or ScanNet's .sens")
         ->required();
     app.add_option("OUT.rawlog", args.rawlog, "Rawlog to write")->required();
     std::vector<std::string> layouts = layoutNames();
@@ -70,8 +74,9 @@ void declare(CLI::App& app, Arguments& args) {
         ->capture_default_str();
     app.add_option(
         "--camera", args.camera,
-        "fr1, fr2, fr3, ros or an ini file with [CAMERA_PARAMS]; default: DIR/camera.ini, "
-        "else the layout's, else guessed from the folder's name");
+        "fr1, fr2, fr3, ros, an ini file with [CAMERA_PARAMS], or a calibration of librealsense, "
+        "Open3D or Azure Kinect (.json) or of ROS or Kalibr (.yaml); default: DIR/camera.ini, else "
+        "the layout's, else guessed from the folder's name");
     app.add_option("--depth-units", args.depth_units,
                    "Depth units a metre; default: the camera file's, else 5000")
         ->check(positive());
@@ -110,8 +115,11 @@ CameraSetup guessedCamera(const RgbdSequence& sequence, SequenceLayout layout) {
         return *camera;
     }
     if (layout == SequenceLayout::RealSense) {
-        throw Error("'" + sequence.folder + "' has no camera_intrinsic.json",
-                    "give the camera with --camera");
+        throw Error(
+            "'" + sequence.folder +
+                "' has no calibration (camera.ini, camera_intrinsic.json, intrinsic.json or "
+                "camera_info.yaml)",
+            "give the camera with --camera");
     }
     if (const auto guess = cameraByFolderName(fs::canonical(sequence.folder).filename())) {
         sayInfo("camera: " + guess->name + ", by the folder's name");
@@ -129,7 +137,7 @@ CameraSetup chooseCamera(const Arguments& args, const RgbdSequence& sequence,
                          SequenceLayout layout) {
     if (!args.camera.empty()) {
         const auto known = cameraByName(args.camera);
-        return known ? *known : readCameraFile(args.camera);
+        return known ? *known : readCalibration(args.camera);
     }
     const fs::path file = fs::path(sequence.folder) / "camera.ini";
     if (fs::exists(file)) {
@@ -139,12 +147,10 @@ CameraSetup chooseCamera(const Arguments& args, const RgbdSequence& sequence,
     return sequence.camera ? *sequence.camera : guessedCamera(sequence, layout);
 }
 
-int importFolder(const Arguments& args, const std::string& folder) {
-    const SequenceLayout layout =
-        args.layout == "auto" ? detectLayout(folder) : layoutByName(args.layout);
-    const RgbdSequence sequence =
-        inOurUnits(readSequence(folder, layout, args.rate_hz), sensorUnits(args));
+int importRead(const Arguments& args, const RgbdSequence& recorded, SequenceLayout layout) {
+    const RgbdSequence sequence = inOurUnits(recorded, sensorUnits(args));
     CameraSetup setup = chooseCamera(args, sequence, layout);
+    completeImageSize(sequence, setup.camera);
     if (args.depth_units > 0) {
         setup.depth_units = args.depth_units;
         setup.depth_units_assumed = false;
@@ -152,10 +158,21 @@ int importFolder(const Arguments& args, const std::string& folder) {
     if (args.depth_scale > 0) setup.depth_scale = args.depth_scale;
     ImportOptions options = args.import;
     options.depth_camera = sequence.depth_camera;
-    if (!args.depth_camera.empty()) options.depth_camera = readCameraFile(args.depth_camera);
+    if (!args.depth_camera.empty()) options.depth_camera = readCalibration(args.depth_camera);
     const ImportReport report = importSequence(sequence, setup, args.rawlog, options);
     std::fputs(toText(report).c_str(), stdout);
     return 0;
+}
+
+int importFolder(const Arguments& args, const std::string& folder) {
+    const SequenceLayout layout =
+        args.layout == "auto" ? detectLayout(folder) : layoutByName(args.layout);
+    return importRead(args, readSequence(folder, layout, args.rate_hz), layout);
+}
+
+int importSens(const Arguments& args) {
+    const UnpackedSens unpacked(args.source, fs::absolute(args.rawlog).parent_path(), args.rate_hz);
+    return importRead(args, unpacked.sequence(), SequenceLayout::Folders);
 }
 
 int run(Arguments& args) {
@@ -165,7 +182,11 @@ int run(Arguments& args) {
         const UnpackedBag unpacked(args.source, fs::absolute(args.rawlog).parent_path());
         return importFolder(args, unpacked.sequenceFolder());
     }
-    if (!isSequenceArchive(args.source)) return importFolder(args, args.source);
+    if (isSens(args.source)) return importSens(args);
+    if (!isSequenceArchive(args.source)) {
+        if (fs::is_regular_file(args.source)) refuseForeignFile(args.source);
+        return importFolder(args, args.source);
+    }
     const std::string beside = fs::absolute(args.rawlog).parent_path();
     sayInfo("unpacking '" + args.source + "'");
     const UnpackedArchive unpacked(args.source, beside);

@@ -75,8 +75,40 @@ TEST_F(FaultImport, emptyFolder) {
 TEST_F(FaultImport, missingLists) {
     fs::remove(folder_ / "s/depth.txt");
     expectRefused(import(), "has no depth.txt");
+    fs::remove_all(folder_ / "s/rgb");
     fs::remove(folder_ / "s/rgb.txt");
     expectRefused(import(), "has no rgb.txt");
+}
+
+TEST_F(FaultImport, withoutListsTheNamesTell) {
+    fs::remove(folder_ / "s/depth.txt");
+    fs::remove(folder_ / "s/rgb.txt");
+    const ProgramResult result = import();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out, HasSubstr("stamps in seconds"));
+    EXPECT_THAT(result.out, HasSubstr("4 frames"));
+}
+
+TEST_F(FaultImport, filesThatAreNoRecording) {
+    folder_.write("a.mkv", "\x1a\x45\xdf\xa3 and more");
+    expectRefused(runProgram("rgbd-import", "'" + folder_ / "a.mkv" + "' '" + rawlog() + "'"),
+                  "a.mkv' is a Matroska video");
+    folder_.write("a.sens", "short");
+    expectRefused(runProgram("rgbd-import", "'" + folder_ / "a.sens" + "' '" + rawlog() + "'"),
+                  "a.sens' is no .sens file");
+}
+
+TEST_F(FaultImport, calibrationsOfOtherPrograms) {
+    const auto with = [&](const std::string& name, const std::string& text) {
+        folder_.write(name, text);
+        return import("--camera '" + folder_ / name + "'");
+    };
+    expectRefused(with("a.json", "{"), "a.json' is no JSON");
+    expectRefused(with("a.yaml", "image_width: 32"), "a.yaml' has no camera");
+    const ProgramResult result =
+        with("b.json", R"({"fx": 30, "fy": 31, "cx": 15.5, "cy": 11.5, "depth_units": 5000})");
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_EQ(inspectRawlog(rawlog()).camera.width, 32);
 }
 
 TEST_F(FaultImport, malformedListLine) {
@@ -99,7 +131,8 @@ TEST_F(FaultImport, missingFileIsLeftOutAndCounted) {
     const ProgramResult result = import();
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("3 frames"));
-    EXPECT_THAT(result.out, HasSubstr("1 files missing"));
+    EXPECT_THAT(result.out,
+                HasSubstr("1 files missing, the first: '" + small_sequence::depthFile(1) + "'"));
     EXPECT_EQ(inspectRawlog(rawlog()).rgbd_frames, 3u);
 }
 
@@ -163,11 +196,20 @@ TEST_F(FaultImport, colourAsDepth) {
 }
 
 TEST_F(FaultImport, floatDepth) {
-    cv::Mat metres;
-    small_sequence::depth(0).convertTo(metres, CV_32F, 1 / 5000.0);
-    cv::imwrite(folder_ / "s/depth/a.tiff", metres);
-    folder_.write("s/depth.txt",
-                  small_sequence::stampText(small_sequence::depthStamp(0)) + " depth/a.tiff\n");
+    cv::Mat meters;
+    small_sequence::depth(0).convertTo(meters, CV_32F, 1 / 5000.0);
+    std::string list = readText(folder_ / "s/depth.txt");
+    const std::string file = small_sequence::depthFile(0);
+    list.replace(list.find(file), file.size(), "depth/a.tiff");
+    folder_.write("s/depth.txt", list);
+    cv::imwrite(folder_ / "s/depth/a.tiff", meters);
+    const ProgramResult result = import();
+    EXPECT_EQ(result.exit_code, 0) << result.err;
+    EXPECT_THAT(result.out,
+                HasSubstr("1 depth images in meters, converted to 5000 units per meter"));
+    fs::remove(rawlog());
+    meters.convertTo(meters, CV_64F);
+    cv::imwrite(folder_ / "s/depth/a.tiff", meters);
     expectRefused(import(), "is floating-point");
 }
 
@@ -224,7 +266,7 @@ TEST_F(FaultImport, unwritableOutput) {
     for (const std::string option : {"", " --compact"}) {
         const ProgramResult result =
             runProgram("rgbd-import", "'" + folder_ / "s" + "' '" + folder_ / "file/out.rawlog" +
-                                         "' --quiet" + option);
+                                          "' --quiet" + option);
         expectRefused(result, "cannot make the folder");
     }
     expectRefused(runProgram("rgbd-import", "'" + folder_ / "s" + "' '" + folder_ / "s" + "' -q"),

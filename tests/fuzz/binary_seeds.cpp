@@ -3,6 +3,7 @@
 #include <octomap/ColorOcTree.h>
 #include <octomap/OcTree.h>
 
+#include "../support/small_sens.h"
 #include "../support/tum_folder.h"
 #include "../support/unpacked.h"
 #include "fuzz_targets.h"
@@ -103,6 +104,14 @@ std::vector<std::string> binarySeeds(const std::string& target) {
     if (target == "color_octree") {
         saveColorOcTree(path, smallColorTree());
         return {readText(path)};
+    }
+    if (target == "sens") {
+        SmallSens sens;
+        for (int i = 0; i < 2; ++i) {
+            sens.frames.push_back({cv::Mat(2, 3, CV_8UC3, cv::Scalar::all(10 * i)),
+                                   cv::Mat(2, 3, CV_16UC1, cv::Scalar(1000 + i))});
+        }
+        return {sens.bytes()};
     }
     throw Error("the corpus of '" + target + "' is text");
 }

@@ -129,7 +129,12 @@ const std::vector<NamedTarget>& fuzzTargets() {
                                                      {"binary_octree", fuzzBinaryOcTree},
                                                      {"color_octree", fuzzColorOcTree},
                                                      {"pose_graph", fuzzPoseGraph},
-                                                     {"frames_csv", fuzzFramesCsv}};
+                                                     {"frames_csv", fuzzFramesCsv},
+                                                     {"associations", fuzzAssociations},
+                                                     {"intrinsics_json", fuzzIntrinsicsJson},
+                                                     {"intrinsics_yaml", fuzzIntrinsicsYaml},
+                                                     {"stray_scanner", fuzzStrayScanner},
+                                                     {"sens", fuzzSens}};
     return targets;
 }
 

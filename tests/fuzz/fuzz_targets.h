@@ -10,6 +10,13 @@ namespace rgbd_graphslam {
 using FuzzTarget = void (*)(const std::string& bytes);
 
 void fuzzTumList(const std::string& bytes);
+/** The bytes are a list of pairs. */
+void fuzzAssociations(const std::string& bytes);
+void fuzzIntrinsicsJson(const std::string& bytes);
+void fuzzIntrinsicsYaml(const std::string& bytes);
+/** The bytes are odometry.csv, and camera_matrix.csv. */
+void fuzzStrayScanner(const std::string& bytes);
+void fuzzSens(const std::string& bytes);
 void fuzzIni(const std::string& bytes);
 void fuzzCameraIni(const std::string& bytes);
 void fuzzTrajectory(const std::string& bytes);

@@ -11,7 +11,7 @@ int main(int argc, char** argv) {
         return 2;
     }
     for (const std::string target :
-         {"rawlog", "sparse_map", "checkpoint", "binary_octree", "color_octree"}) {
+         {"rawlog", "sparse_map", "checkpoint", "binary_octree", "color_octree", "sens"}) {
         const std::filesystem::path folder = std::filesystem::path(argv[1]) / target;
         std::filesystem::create_directories(folder);
         int number = 0;

@@ -27,7 +27,7 @@ std::vector<ListedImage> usableImages(const RgbdSequence& sequence,
                 throw Error("the listed image '" + file.string() + "' is missing",
                             "fetch the sequence again, or leave out --strict to go on without it");
             }
-            ++tally.missing;
+            if (tally.missing++ == 0) tally.first_missing = image.file;
         } else if (!seen.insert(microseconds(image.stamp_s)).second) {
             ++tally.repeated;
         } else {
@@ -44,6 +44,16 @@ std::vector<double> stampsOf(const std::vector<ListedImage>& images) {
     stamps.reserve(images.size());
     for (const auto& image : images) stamps.push_back(image.stamp_s);
     return stamps;
+}
+
+/** Where all files of a list are missing: that, and the first of them. */
+std::string missingText(const ImportReport& report) {
+    for (const ImageTally* tally : {&report.color, &report.depth}) {
+        if (tally->missing == tally->listed && tally->listed > 0) {
+            return ", the listed files are missing (the first: '" + tally->first_missing + "')";
+        }
+    }
+    return "";
 }
 
 /** Tells images that had nobody near from those whose partners went to others.
@@ -77,7 +87,7 @@ std::vector<FramePair> pairUp(const RgbdSequence& sequence, const ImportOptions&
     if (pairs.empty()) {
         throw Error("no colour and depth image of '" + sequence.folder + "' are within " +
                         shortest(options.max_difference_s) + " s of each other" +
-                        (color.empty() || depth.empty() ? ", the listed files are missing" : ""),
+                        missingText(report),
                     "check rgb.txt and depth.txt, or raise --max-difference");
     }
     return pairs;

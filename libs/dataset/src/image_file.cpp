@@ -1,6 +1,8 @@
 #include "rgbd_graphslam/dataset/image_file.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <opencv2/imgcodecs.hpp>
@@ -73,9 +75,22 @@ std::string kindOf(const cv::Mat& pixels) {
     }
 }
 
+/** \param meters CV_32FC1; without a finite positive number there is no reading */
+cv::Mat1w inUnits(const cv::Mat1f& meters, double units) {
+    cv::Mat1w depth(meters.size(), 0);
+    for (int v = 0; v < meters.rows; ++v) {
+        for (int u = 0; u < meters.cols; ++u) {
+            const double reading = std::round(meters(v, u) * units);
+            if (reading >= 1 && reading <= 65535) depth(v, u) = static_cast<std::uint16_t>(reading);
+        }
+    }
+    return depth;
+}
+
 [[noreturn]] void refuseDepth(const std::string& path, const std::string& kind) {
     throw Error("depth image '" + path + "' is " + kind,
-                "depth must be 16-bit PNG with a fixed number of units a metre (--depth-units)");
+                "depth must be 16-bit PNG, TIFF or PGM with a fixed number of units per meter "
+                "(--depth-units), or 32-bit float TIFF in meters");
 }
 
 }  // namespace
@@ -84,10 +99,14 @@ DecodedImage readColorImage(const std::string& path) {
     return decoded(path, bytesOf(path), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
 }
 
-DecodedImage readDepthImage(const std::string& path) {
+DecodedImage readDepthImage(const std::string& path, double units) {
     const Bytes bytes = bytesOf(path);
     if (startsWith(bytes, exr_start)) refuseDepth(path, "OpenEXR, floating-point");
     DecodedImage image = decoded(path, bytes, cv::IMREAD_UNCHANGED);
+    if (image.damage.empty() && image.pixels.type() == CV_32FC1) {
+        image.pixels = inUnits(image.pixels, units);
+        image.converted = true;
+    }
     if (image.damage.empty() && image.pixels.type() != CV_16UC1) {
         refuseDepth(path, kindOf(image.pixels));
     }

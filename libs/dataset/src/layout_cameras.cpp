@@ -1,11 +1,10 @@
 /** Cameras of benchmarks other than TUM's, and calibrations in their formats. */
 #include <filesystem>
-#include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "list_file.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/image_file.h"
+#include "rgbd_graphslam/dataset/intrinsics_file.h"
 #include "rgbd_graphslam/dataset/sequence_layout.h"
 
 namespace rgbd_graphslam {
@@ -33,14 +32,6 @@ CameraSetup bonnCamera() {
     return setup;
 }
 
-void takeSize(const RgbdSequence& sequence, Camera& camera) {
-    if (sequence.color.empty()) return;
-    const auto image = readColorImage(fs::path(sequence.folder) / sequence.color.front().file);
-    if (!image.damage.empty()) throw Error("image " + image.damage, "fetch the sequence again");
-    camera.width = image.pixels.cols;
-    camera.height = image.pixels.rows;
-}
-
 CameraSetup eth3dCamera(const RgbdSequence& sequence) {
     const std::string form = "fx fy cx cy";
     std::optional<CameraSetup> setup;
@@ -52,36 +43,26 @@ CameraSetup eth3dCamera(const RgbdSequence& sequence) {
         setup = pinhole("calibration.txt", values[0], values[1], values[2], values[3], 5000);
     });
     if (!setup) throw Error("'" + path + "' is empty", "its line must be '" + form + "'");
-    takeSize(sequence, setup->camera);
+    setup->camera.width = setup->camera.height = 0;
+    completeImageSize(sequence, setup->camera);
     return *setup;
 }
 
-/** The file that Open3D's recorder writes: width, height and the matrix of intrinsics, column by
- *  column. */
-CameraSetup open3dCamera(const std::string& path) {
-    try {
-        std::ifstream in(path);
-        const auto json = nlohmann::json::parse(in);
-        const std::vector<double> K = json.at("intrinsic_matrix");
-        CameraSetup setup =
-            pinhole(fs::path(path).filename(), K.at(0), K.at(4), K.at(6), K.at(7), millimetres);
-        setup.camera.width = json.at("width");
-        setup.camera.height = json.at("height");
-        if (setup.camera.fx > 0 && setup.camera.fy > 0) return setup;
-    } catch (const nlohmann::json::exception&) {
-    } catch (const std::out_of_range&) {
-    }
-    throw Error("'" + path + "' has no width, height and intrinsic_matrix of 9 numbers",
-                "give the camera with --camera");
-}
-
-std::optional<CameraSetup> realSenseCamera(const std::string& folder) {
-    const fs::path path = fs::path(folder) / "camera_intrinsic.json";
-    if (!fs::exists(path)) return std::nullopt;
-    return open3dCamera(path);
+std::optional<CameraSetup> cameraInFolder(const RgbdSequence& sequence) {
+    auto setup = calibrationIn(sequence.folder);
+    if (setup) completeImageSize(sequence, setup->camera);
+    return setup;
 }
 
 }  // namespace
+
+void completeImageSize(const RgbdSequence& sequence, Camera& camera) {
+    if ((camera.width > 0 && camera.height > 0) || sequence.color.empty()) return;
+    const auto image = readColorImage(fs::path(sequence.folder) / sequence.color.front().file);
+    if (!image.damage.empty()) throw Error("image " + image.damage, "fetch the sequence again");
+    camera.width = image.pixels.cols;
+    camera.height = image.pixels.rows;
+}
 
 std::optional<CameraSetup> layoutCamera(const RgbdSequence& sequence, SequenceLayout layout) {
     switch (layout) {
@@ -94,7 +75,12 @@ std::optional<CameraSetup> layoutCamera(const RgbdSequence& sequence, SequenceLa
         case SequenceLayout::Eth3d:
             return eth3dCamera(sequence);
         case SequenceLayout::RealSense:
-            return realSenseCamera(sequence.folder);
+        case SequenceLayout::Folders:
+        case SequenceLayout::Associations:
+            return cameraInFolder(sequence);
+        case SequenceLayout::StrayScanner:
+        case SequenceLayout::Record3d:
+            return sequence.camera;
         default:
             return std::nullopt;
     }

@@ -1,6 +1,7 @@
 /** Text files of lines with a stamp or other numbers in front, as sequences come with. */
 #pragma once
 #include <functional>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -11,6 +12,8 @@ struct Line {
     std::string path;
     int number;
     std::istringstream words;
+    /** It had commas for decimal points; they are points now. */
+    bool had_decimal_commas = false;
 
     /** \throws Error naming file and line */
     [[noreturn]] void refuse(const std::string& why, const std::string& form) const;
@@ -22,8 +25,12 @@ struct Line {
     std::string rest();
 };
 
-/** Commas and tabs separate as blanks do, `#` starts a comment.
- *  \throws Error when the file cannot be read */
+/** Whether a word is a finite number as a whole. */
+std::optional<double> numberIn(const std::string& word);
+
+/** Commas, semicolons and tabs separate as blanks do, but for commas that stand for decimal points;
+ *  `#` starts a comment; a byte-order mark is skipped.
+ *  \throws Error when the file cannot be read or is UTF-16 */
 void forEachLine(const std::string& path, const std::function<void(Line&)>& use);
 
 /** \throws Error when there is no such folder or nothing in it */

@@ -6,7 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "number_text.h"
 #include "rgbd_graphslam/core/error.h"
+#include "stamp_unit.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;
@@ -17,22 +19,29 @@ bool isDigit(char c) {
 }
 
 bool endsWith(const std::string& text, const std::string& ending) {
+    const auto same = [](char a, char b) {
+        return std::tolower(static_cast<unsigned char>(a)) == b;
+    };
     return text.size() > ending.size() &&
-           text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
+           std::equal(ending.begin(), ending.end(),
+                      text.end() - static_cast<std::ptrdiff_t>(ending.size()),
+                      [&](char b, char a) { return same(a, b); });
 }
 
-/** \param stem a file's name without its ending */
-double stampOf(const std::string& stem, const std::string& path, double rate_hz) {
-    char* end = nullptr;
-    const double seconds = std::strtod(stem.c_str(), &end);
-    if (!*end && isDigit(stem.front()) && stem.find('.') != std::string::npos) return seconds;
+/** The last number in a file's name: digits, with decimals behind a point where there are any.
+ *  \param stem the name without its ending */
+std::string lastNumberIn(const std::string& stem, const std::string& path) {
     const auto last = std::find_if(stem.rbegin(), stem.rend(), isDigit);
     if (last == stem.rend()) {
         throw Error("the name of '" + path + "' has no number",
                     "images must be named by their number or stamp");
     }
-    const auto first = std::find_if_not(last, stem.rend(), isDigit);
-    return std::strtod(std::string(first.base(), last.base()).c_str(), nullptr) / rate_hz;
+    auto first = std::find_if_not(last, stem.rend(), isDigit);
+    if (first != stem.rend() && *first == '.') {
+        const auto whole = std::find_if_not(first + 1, stem.rend(), isDigit);
+        if (whole != first + 1) first = whole;
+    }
+    return std::string(first.base(), last.base());
 }
 
 /** \return false for a matrix with numbers that are not finite */
@@ -59,23 +68,52 @@ bool readPose(const std::string& path, SE3& T_world_cam) {
 
 }  // namespace
 
-std::vector<ListedImage> numberedFiles(const std::string& folder, const std::string& subfolder,
-                                       const std::vector<std::string>& endings, double rate_hz) {
-    std::vector<ListedImage> files;
-    const fs::path root(folder);
-    for (const auto& entry : fs::directory_iterator(root / subfolder)) {
+NumberedFiles filesByNumber(const std::string& folder, const std::string& subfolder,
+                            const std::vector<std::string>& endings) {
+    NumberedFiles found;
+    for (const auto& entry : fs::directory_iterator(fs::path(folder) / subfolder)) {
         const std::string name = entry.path().filename();
         for (const auto& ending : endings) {
             if (!endsWith(name, ending)) continue;
             const std::string stem = name.substr(0, name.size() - ending.size());
-            files.push_back({stampOf(stem, entry.path(), rate_hz),
-                             subfolder.empty() ? name : subfolder + "/" + name});
+            const std::string number = lastNumberIn(stem, entry.path());
+            found.with_decimals |= number.find('.') != std::string::npos;
+            found.padded |= number.size() > 1 && number[0] == '0' && number[1] != '.';
+            found.files.push_back({std::strtod(number.c_str(), nullptr),
+                                   subfolder.empty() ? name : subfolder + "/" + name});
+            break;
         }
     }
-    std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
-        return a.stamp_s < b.stamp_s || (a.stamp_s == b.stamp_s && a.file < b.file);
+    std::sort(found.files.begin(), found.files.end(), [](const auto& a, const auto& b) {
+        return a.number < b.number || (a.number == b.number && a.name < b.name);
     });
-    return files;
+    return found;
+}
+
+NumberMeaning meaningOf(const NumberedFiles& files, double rate_hz) {
+    constexpr double most_frames = 1e7;
+    std::vector<double> numbers;
+    for (const auto& file : files.files) numbers.push_back(file.number);
+    const bool small = numbers.empty() || numbers.back() < most_frames;
+    if (!files.with_decimals && (areFrameNumbers(numbers) || (files.padded && small))) {
+        return {1 / rate_hz,
+                "images are numbered: taken at " + shortest(rate_hz) + " frames/s (--rate)"};
+    }
+    const StampUnit unit = unitOfStamps(numbers);
+    return {unit.seconds, std::string("file names are taken as stamps in ") + unit.name};
+}
+
+std::vector<ListedImage> stamped(const NumberedFiles& files, const NumberMeaning& meaning) {
+    std::vector<ListedImage> images;
+    for (const auto& [number, name] : files.files) {
+        images.push_back({number * meaning.seconds, name});
+    }
+    return images;
+}
+
+std::vector<ListedImage> numberedFiles(const std::string& folder, const std::string& subfolder,
+                                       const std::vector<std::string>& endings, double rate_hz) {
+    return stamped(filesByNumber(folder, subfolder, endings), {1 / rate_hz, ""});
 }
 
 Trajectory readPoseFiles(const std::string& folder, const std::vector<ListedImage>& files) {

@@ -7,10 +7,37 @@
 
 namespace rgbd_graphslam {
 
-/** The files of `folder`/`subfolder` whose names end as one of `endings`, in order of time. A name
- *  that is a number with decimals is a stamp in seconds; otherwise its last group of digits is a
- *  frame's number, taken at number / rate_hz. Names are relative to `folder`.
- *  \throws Error for a name without a number */
+/** Files of a folder by the numbers in their names. */
+struct NumberedFiles {
+    struct File {
+        double number;
+        /** Relative to the sequence's folder. */
+        std::string name;
+    };
+    /** In ascending order. */
+    std::vector<File> files;
+    /** Some names are numbers with decimals; some have leading zeros. */
+    bool with_decimals = false, padded = false;
+};
+
+/** The files of `folder`/`subfolder` whose names end as one of `endings`, in any case. The number
+ * is the name's last one. \throws Error for a name without a number */
+NumberedFiles filesByNumber(const std::string& folder, const std::string& subfolder,
+                            const std::vector<std::string>& endings);
+
+/** What numbers in names count. */
+struct NumberMeaning {
+    double seconds = 1;
+    /** A line for the user. */
+    std::string said;
+};
+
+/** Frame numbers at a rate, or stamps in s, ms, us or ns. */
+NumberMeaning meaningOf(const NumberedFiles& files, double rate_hz);
+
+std::vector<ListedImage> stamped(const NumberedFiles& files, const NumberMeaning& meaning);
+
+/** filesByNumber, all of them frame numbers taken at number / rate_hz. */
 std::vector<ListedImage> numberedFiles(const std::string& folder, const std::string& subfolder,
                                        const std::vector<std::string>& endings, double rate_hz);
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <filesystem>
 
+#include "depth_confidence.h"
 #include "frame_pairs.h"
 #include "number_text.h"
 #include "ordered_jobs.h"
@@ -43,6 +45,8 @@ struct LoadedFrame {
     std::string color_file;
     cv::Mat color, depth;
     std::string damage;
+    /** Depth came in meters. */
+    bool converted = false;
 };
 
 void checkSize(const std::string& file, const cv::Mat& pixels, const Camera& camera) {
@@ -60,12 +64,15 @@ struct FrameSource {
     const RgbdSequence& sequence;
     Camera color_camera, depth_camera;
     std::optional<DepthRegistration> registration;
+    /** Units per meter, for depth in meters. */
+    double depth_units;
 
     FrameSource(const RgbdSequence& recorded, const CameraSetup& setup,
                 const std::optional<CameraSetup>& depth)
         : sequence(recorded),
           color_camera(setup.camera),
-          depth_camera(depth ? depth->camera : setup.camera) {
+          depth_camera(depth ? depth->camera : setup.camera),
+          depth_units(1 / (depth ? *depth : setup).depthUnitInMetres()) {
         if (!depth) return;
         const SE3 T_color_depth = T_optical_from_mrpt * setup.T_base_sensor.inverse() *
                                   depth->T_base_sensor * T_optical_from_mrpt.inverse();
@@ -77,14 +84,16 @@ LoadedFrame load(const FrameSource& source, const FramePair& pair) {
     const RgbdSequence& sequence = source.sequence;
     const std::string color_file = fs::path(sequence.folder) / pair.color.file;
     const std::string depth_file = fs::path(sequence.folder) / pair.depth.file;
-    DecodedImage color = readColorImage(color_file), depth = readDepthImage(depth_file);
-    const std::string damage = color.damage.empty() ? depth.damage : color.damage;
+    DecodedImage color = readColorImage(color_file),
+                 depth = readDepthImage(depth_file, source.depth_units);
+    std::string damage = color.damage.empty() ? depth.damage : color.damage;
+    if (damage.empty()) damage = dropUnconfident(sequence, pair.depth.file, depth.pixels);
     if (!damage.empty()) return {color_file, {}, {}, damage};
     checkSize(color_file, color.pixels, source.color_camera);
     checkSize(depth_file, depth.pixels, source.depth_camera);
     if (sequence.no_reading != 0) depth.pixels.setTo(0, depth.pixels == sequence.no_reading);
     if (source.registration) depth.pixels = (*source.registration)(depth.pixels);
-    return {color_file, color.pixels, depth.pixels, {}};
+    return {color_file, color.pixels, depth.pixels, {}, depth.converted};
 }
 
 CameraSetup withDepthUnitOf(const std::optional<CameraSetup>& depth, CameraSetup setup) {
@@ -150,6 +159,11 @@ class Import {
         writeSensorsUntil(mrpt::Clock::time_point::max(), next_sensor, writer);
         report_.misalignment_px = registration_.misalignment();
         report_.notes = sequence_.notes;
+        if (converted_ > 0) {
+            report_.notes.push_back(std::to_string(converted_) +
+                                    " depth images in meters, converted to " +
+                                    shortest(std::round(source_.depth_units)) + " units per meter");
+        }
         judgeDepth();
     }
 
@@ -187,6 +201,7 @@ class Import {
         const std::size_t stride = std::max<std::size_t>(1, pairs_.size() / frames_checked);
         if (report_.frames % stride == 0) registration_.add(loaded.color, loaded.depth);
         depth_histogram_.add(loaded.depth);
+        converted_ += loaded.converted;
         const auto frame = makeRgbdObservation(setup_, pair.color.stamp_s);
         setColor(*frame, loaded.color);
         setDepth(*frame, loaded.depth);
@@ -227,6 +242,7 @@ class Import {
     FrameSource source_;
     RegistrationCheck registration_;
     DepthHistogram depth_histogram_;
+    std::size_t converted_ = 0;
     ImportReport report_;
     std::vector<FramePair> pairs_;
     SensorEntries sensors_;
@@ -241,7 +257,7 @@ std::string tallyText(const std::string& name, const std::string& other, const I
     };
     reason(tally.no_partner, "without " + other + " near enough");
     reason(tally.partner_taken, "whose " + other + " went to a nearer one");
-    reason(tally.missing, "files missing");
+    reason(tally.missing, "files missing, the first: '" + tally.first_missing + "'");
     reason(tally.repeated, "stamps repeated");
     if (!reasons.empty()) text += " (" + reasons + ")";
     return text + "; " + std::to_string(tally.backwards) + " stamps go back, " +

@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "associations.h"
+#include "image_folders.h"
 #include "list_file.h"
 #include "numbered_files.h"
+#include "phone_folders.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/tum_sequence.h"
+#include "stereo_folders.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;
 namespace {
-
-const std::vector<std::string> color_endings = {".png", ".jpg", ".jpeg"};
 
 /** The first file of a folder, by name, that ends so; empty when there is none. */
 std::string fileEndingOn(const fs::path& folder, const std::string& ending) {
@@ -41,18 +43,9 @@ Trajectory iclTruth(const std::string& folder, double rate_hz) {
 }
 
 RgbdSequence readIcl(const std::string& folder, double rate_hz) {
-    const std::string form = "number depth/N.png number rgb/N.png";
-    RgbdSequence sequence;
-    forEachLine(fs::path(folder) / "associations.txt", [&](Line& line) {
-        for (int i = 0; i < 2; ++i) {
-            const double stamp_s = line.realNumber(form) / rate_hz;
-            std::string file;
-            if (!(line.words >> file)) line.refuse("too few values", form);
-            const bool is_depth = file.find("depth") != std::string::npos;
-            (is_depth ? sequence.depth : sequence.color).push_back({stamp_s, file});
-        }
-    });
-    sequence.truth = iclTruth(folder, rate_hz);
+    RgbdSequence sequence = readAssociations(folder, rate_hz);
+    const Trajectory truth = iclTruth(folder, rate_hz);
+    if (!truth.empty()) sequence.truth = truth;
     return sequence;
 }
 
@@ -65,19 +58,6 @@ RgbdSequence readSevenScenes(const std::string& folder, double rate_hz) {
     return sequence;
 }
 
-RgbdSequence readRealSense(const std::string& folder, double rate_hz) {
-    RgbdSequence sequence;
-    sequence.color = numberedFiles(folder, "color", color_endings, rate_hz);
-    sequence.depth = numberedFiles(folder, "depth", {".png"}, rate_hz);
-    for (const std::string poses : {"poses", "pose"}) {
-        if (!fs::is_directory(fs::path(folder) / poses)) continue;
-        sequence.truth = readPoseFiles(folder, numberedFiles(folder, poses, {".txt"}, rate_hz));
-    }
-    const fs::path truth = fs::path(folder) / "groundtruth.txt";
-    if (sequence.truth.empty() && fs::exists(truth)) sequence.truth = readTumTrajectory(truth);
-    return sequence;
-}
-
 RgbdSequence readByLayout(const std::string& folder, SequenceLayout layout, double rate_hz) {
     switch (layout) {
         case SequenceLayout::Icl:
@@ -85,17 +65,45 @@ RgbdSequence readByLayout(const std::string& folder, SequenceLayout layout, doub
         case SequenceLayout::SevenScenes:
             return readSevenScenes(folder, rate_hz);
         case SequenceLayout::RealSense:
-            return readRealSense(folder, rate_hz);
+        case SequenceLayout::Folders:
+            return readImageFolders(folder, rate_hz);
+        case SequenceLayout::Associations:
+            return readAssociations(folder, rate_hz);
+        case SequenceLayout::StrayScanner:
+            return readStrayScanner(folder);
+        case SequenceLayout::Record3d:
+            return readRecord3d(folder);
         default:
             return readTumSequence(folder);
     }
 }
 
+/** ICL's images are numbered; a list that cannot be read is told of when it is read. */
+SequenceLayout layoutOfAssociations(const std::string& folder) {
+    if (!fileEndingOn(folder, ".gt.freiburg").empty()) return SequenceLayout::Icl;
+    try {
+        return associationsAreNumbered(folder) ? SequenceLayout::Icl : SequenceLayout::Associations;
+    } catch (const Error&) {
+        return SequenceLayout::Associations;
+    }
+}
+
+/** A folder right below that holds a sequence; empty when there is none. */
+std::string sequenceBelow(const std::string& folder) {
+    std::string first;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+        const std::string path = entry.path();
+        if ((first.empty() || path < first) && layoutOf(path)) first = path;
+    }
+    return first;
+}
+
 }  // namespace
 
 const std::vector<std::string>& layoutNames() {
-    static const std::vector<std::string> names = {"tum",  "icl",   "7-scenes",
-                                                   "bonn", "eth3d", "realsense"};
+    static const std::vector<std::string> names = {
+        "tum",       "icl",          "7-scenes", "bonn",          "eth3d",
+        "realsense", "associations", "folders",  "stray-scanner", "record3d"};
     return names;
 }
 
@@ -115,10 +123,14 @@ std::optional<SequenceLayout> layoutOf(const std::string& folder) {
         if (has("calibration.txt")) return SequenceLayout::Eth3d;
         return name.find("bonn") == std::string::npos ? SequenceLayout::Tum : SequenceLayout::Bonn;
     }
-    if (has("associations.txt")) return SequenceLayout::Icl;
+    if (!associationsIn(folder).empty()) return layoutOfAssociations(folder);
     if (!fileEndingOn(path, ".depth.png").empty()) return SequenceLayout::SevenScenes;
-    if (has("color") && has("depth")) return SequenceLayout::RealSense;
-    return std::nullopt;
+    if (isStrayScanner(folder)) return SequenceLayout::StrayScanner;
+    if (isRecord3d(folder)) return SequenceLayout::Record3d;
+    const std::string color = colorFolderIn(folder), depth = depthFolderIn(folder);
+    if (color.empty() || depth.empty() || has("rgb.txt") || has("depth.txt")) return std::nullopt;
+    return color == "color" && depth == "depth" ? SequenceLayout::RealSense
+                                                : SequenceLayout::Folders;
 }
 
 SequenceLayout detectLayout(const std::string& folder) {
@@ -127,21 +139,24 @@ SequenceLayout detectLayout(const std::string& folder) {
     const bool has_a_list =
         fs::exists(fs::path(folder) / "rgb.txt") || fs::exists(fs::path(folder) / "depth.txt");
     if (!layout && has_a_list) return SequenceLayout::Tum;
-    if (!layout) {
-        throw Error("'" + folder +
-                        "' has no rgb.txt and depth.txt, no associations.txt, no color/ and depth/ "
-                        "and no frame-000000.depth.png",
-                    "give the folder of a sequence");
-    }
-    return *layout;
+    if (layout) return *layout;
+    refuseStereo(folder);
+    const std::string below = sequenceBelow(folder);
+    throw Error("'" + folder +
+                    "' has no rgb.txt and depth.txt, no associations.txt, no folders rgb/ or "
+                    "color/ and depth/ and no frame-000000.depth.png",
+                below.empty() ? "give the folder of a sequence" : "did you mean '" + below + "'?");
 }
 
 RgbdSequence readSequence(const std::string& folder, SequenceLayout layout, double rate_hz) {
     checkSequenceFolder(folder);
-    const auto detected = layoutOf(folder);
-    const bool lists = layout == SequenceLayout::Tum || layout == SequenceLayout::Bonn ||
-                       layout == SequenceLayout::Eth3d;
-    if (!lists && detected != layout) {
+    const bool by_lists = layout == SequenceLayout::Tum || layout == SequenceLayout::Bonn ||
+                          layout == SequenceLayout::Eth3d;
+    const bool by_associations =
+        layout == SequenceLayout::Icl || layout == SequenceLayout::Associations;
+    const bool fits = by_lists || (by_associations ? !associationsIn(folder).empty()
+                                                   : layoutOf(folder) == layout);
+    if (!fits) {
         throw Error("'" + folder + "' is not laid out as --layout " +
                         layoutNames()[static_cast<std::size_t>(layout)],
                     "leave --layout away to have it detected");

@@ -239,6 +239,7 @@ TEST_F(Layout, mistakesAreNamed) {
     fs::remove_all(folder_ / "s");
     writeText("color/a.png", "");
     writeText("depth/a.png", "");
+    EXPECT_EQ(detectLayout(source()), SequenceLayout::RealSense);
     EXPECT_THAT(read(SequenceLayout::RealSense), HasSubstr("has no number"));
 }
 

@@ -10,13 +10,16 @@ struct DecodedImage {
     cv::Mat pixels;
     /** Why there are no pixels, empty otherwise. */
     std::string damage;
+    /** Depth that came in meters. */
+    bool converted = false;
 };
 
 /** Decodes PNG or JPEG to CV_8UC3, BGR, in the sensor's orientation. */
 DecodedImage readColorImage(const std::string& path);
 
-/** Decodes a 16-bit PNG to CV_16UC1.
- *  \throws Error for whole images of another kind: 8 bit, float, OpenEXR, several channels */
-DecodedImage readDepthImage(const std::string& path);
+/** Decodes a 16-bit PNG, TIFF or PGM to CV_16UC1; a 32-bit float TIFF in meters is converted.
+ *  \param units of the result per meter, for float images
+ *  \throws Error for whole images of another kind: 8 bit, OpenEXR, several channels */
+DecodedImage readDepthImage(const std::string& path, double units = 5000);
 
 }  // namespace rgbd_graphslam

@@ -32,6 +32,10 @@ struct RgbdSequence {
     std::vector<ListedImage> color, depth;
     /** Depth readings of this value are none, as those of 0 are. */
     std::uint16_t no_reading = 0;
+    /** Folder, relative to the sequence's, of 8-bit images that are named and sized as the depth
+     *  images and hold the confidence in each reading: readings of 0 are none. Empty: there are
+     *  none. */
+    std::string confidence_folder;
     /** Poses of the colour camera's optical frame. */
     Trajectory truth;
     /** Accelerometer (m/s^2) and gyroscope (rad/s), in the IMU's axes. */

@@ -32,6 +32,8 @@ struct ImportOptions {
 /** What became of the images of one list. */
 struct ImageTally {
     std::size_t listed = 0, missing = 0, repeated = 0;
+    /** As the list has it. */
+    std::string first_missing;
     /** No image of the other kind near enough. */
     std::size_t no_partner = 0;
     /** All images of the other kind that are near enough went to nearer ones. */

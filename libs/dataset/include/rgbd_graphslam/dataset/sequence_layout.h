@@ -24,8 +24,17 @@ enum class SequenceLayout {
     /** ETH3D SLAM: as Tum, with the camera in calibration.txt (`fx fy cx cy`). */
     Eth3d,
     /** Folders color/ and depth/ (mm), where present poses/ or pose/ with a 4x4 matrix (camera to
-     *  world) for each colour image, or groundtruth.txt, and Open3D's camera_intrinsic.json. */
-    RealSense
+     *  world) for each colour image, or groundtruth.txt, and Open3D's camera_intrinsic.json or
+     *  another calibration, see calibrationIn(). */
+    RealSense,
+    /** associations.txt (or a variant of the name) with stamps: `stamp file stamp file`. */
+    Associations,
+    /** As RealSense, with the colour images in rgb/, image/ or images/. */
+    Folders,
+    /** Stray Scanner on an iPhone, see phone_folders.h. */
+    StrayScanner,
+    /** Record3D on an iPhone, see phone_folders.h. */
+    Record3d
 };
 
 /** Names of the layouts in the order of the enumeration, as they are typed. */
@@ -45,10 +54,14 @@ SequenceLayout detectLayout(const std::string& folder);
 /** Reads the lists of a folder.
  *  \param rate_hz frames a second, for layouts that number their images instead of stamping them: a
  *         name such as `frame-000012` is taken at 12 / rate_hz, one such as `1305031102.175304` at
- *         that time
+ *         that time; names that are stamps in ms, us or ns are recognized
  *  \throws Error when the folder is not of that layout, or naming file and line that do not have
  *          the layout's form */
 RgbdSequence readSequence(const std::string& folder, SequenceLayout layout, double rate_hz);
+
+/** Gives a calibration that states no image size that of the sequence's first colour image.
+ *  \throws Error when the image cannot be read */
+void completeImageSize(const RgbdSequence& sequence, Camera& camera);
 
 /** The camera that a benchmark publishes for all its sequences or puts into the sequence's folder;
  *  nothing for the TUM benchmark, whose cameras go by the names of sequences.
