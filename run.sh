@@ -9,14 +9,14 @@ build_packages=(
     g++ cmake ninja-build
     libmrpt-graphslam-dev libmrpt-nav-dev libmrpt-nanogui-dev
     libeigen3-dev libopencv-dev libceres-dev liboctomap-dev
-    libcli11-dev nlohmann-json3-dev libarchive-dev libjpeg-dev zlib1g-dev
+    libcli11-dev nlohmann-json3-dev libarchive-dev libsqlite3-dev libjpeg-dev zlib1g-dev
     libcurl4-openssl-dev libnanoflann-dev gnuplot-nox
     libgl-dev libopengl-dev libegl1 libgl1-mesa-dri
 )
 test_packages=(
     ccache pkg-config mrpt-apps octomap-tools
     libgtest-dev libgmock-dev libbenchmark-dev python3 parallel
-    python3-rosbag python3-sensor-msgs python3-tf2-msgs xvfb xauth
+    python3-rosbag python3-sensor-msgs python3-nav-msgs python3-tf2-msgs nodejs npm zstd lz4 xvfb xauth
     colmap assimp-utils
 )
 

@@ -9,6 +9,7 @@
 #include "rgbd_graphslam/dataset/intrinsics_file.h"
 #include "rgbd_graphslam/dataset/sensor_hints.h"
 #include "rgbd_graphslam/dataset/sensor_units.h"
+#include "rgbd_graphslam/dataset/sensor_import.h"
 #include "rgbd_graphslam/dataset/sequence_archive.h"
 #include "rgbd_graphslam/dataset/sequence_import.h"
 #include "rgbd_graphslam/dataset/sequence_layout.h"
@@ -27,6 +28,7 @@ struct Arguments {
     bool compact = false, small = false;
     std::string accel_unit = "m/s2", gyro_unit = "rad/s", odometry_unit = "m", heading_unit = "rad";
     ImportOptions import;
+    BagOptions bag;
 };
 
 /** Each takes a unit's name or a number, which may be negative. */
@@ -59,7 +61,8 @@ SensorUnitValues sensorUnits(const Arguments& args) {
 
 void declare(CLI::App& app, Arguments& args) {
     app.add_option("DIR", args.source,
-                   "Folder of the sequence, its .tgz archive, ROS 1 .bag or ScanNet's .sens")
+                   "Folder of the sequence, its .tgz archive, ScanNet's .sens, or a ROS bag: .bag "
+                   "(ROS 1, RealSense), .db3, .mcap or folder (ROS 2)")
         ->required();
     app.add_option("OUT.rawlog", args.rawlog, "Rawlog to write")->required();
     std::vector<std::string> layouts = layoutNames();
@@ -106,6 +109,14 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_flag("--skip-damaged", args.import.skip_damaged,
                  "Leave frames with a damaged image out instead of stopping");
     declareSensorUnits(app, args);
+    app.add_option("--color-topic", args.bag.color_topic,
+                   "Bags: image topic for colour; default: the best one")
+        ->type_name("TOPIC");
+    app.add_option("--depth-topic", args.bag.depth_topic,
+                   "Bags: image topic for depth; default: registered depth, else raw depth")
+        ->type_name("TOPIC");
+    app.add_flag("--no-camera", args.bag.no_camera,
+                 "Bags: write IMU, odometry, laser scans and GPS alone");
     declareCommonOptions(app);
 }
 
@@ -147,17 +158,31 @@ CameraSetup chooseCamera(const Arguments& args, const RgbdSequence& sequence,
     return sequence.camera ? *sequence.camera : guessedCamera(sequence, layout);
 }
 
+/** A recorded depth camera stays where it is beside the colour camera, wherever --camera puts that
+ *  on the robot. */
+std::optional<CameraSetup> besideCamera(const RgbdSequence& sequence, const CameraSetup& color) {
+    if (!sequence.depth_camera || !sequence.camera) return sequence.depth_camera;
+    CameraSetup depth = *sequence.depth_camera;
+    depth.T_base_sensor = color.T_base_sensor * sequence.camera->T_base_sensor.inverse() *
+                          sequence.depth_camera->T_base_sensor;
+    return depth;
+}
+
 int importRead(const Arguments& args, const RgbdSequence& recorded, SequenceLayout layout) {
     const RgbdSequence sequence = inOurUnits(recorded, sensorUnits(args));
     CameraSetup setup = chooseCamera(args, sequence, layout);
     completeImageSize(sequence, setup.camera);
+    if (sequence.depth_units) {
+        setup.depth_units = *sequence.depth_units;
+        setup.depth_units_assumed = false;
+    }
     if (args.depth_units > 0) {
         setup.depth_units = args.depth_units;
         setup.depth_units_assumed = false;
     }
     if (args.depth_scale > 0) setup.depth_scale = args.depth_scale;
     ImportOptions options = args.import;
-    options.depth_camera = sequence.depth_camera;
+    options.depth_camera = besideCamera(sequence, setup);
     if (!args.depth_camera.empty()) options.depth_camera = readCalibration(args.depth_camera);
     const ImportReport report = importSequence(sequence, setup, args.rawlog, options);
     std::fputs(toText(report).c_str(), stdout);
@@ -175,12 +200,23 @@ int importSens(const Arguments& args) {
     return importRead(args, unpacked.sequence(), SequenceLayout::Folders);
 }
 
+int importBag(const Arguments& args) {
+    const UnpackedBag unpacked(args.source, fs::absolute(args.rawlog).parent_path(), args.bag);
+    if (!args.bag.no_camera) {
+        return importRead(args, unpacked.sequence(), SequenceLayout::Tum);
+    }
+    const SensorReport report = importSensors(unpacked.sequence(), args.rawlog);
+    std::fputs(toText(report).c_str(), stdout);
+    return 0;
+}
+
 int run(Arguments& args) {
     if (args.compact) args.import.storage = RawlogStorage::Compact;
     if (args.small) args.import.storage = RawlogStorage::Small;
-    if (isBag(args.source)) {
-        const UnpackedBag unpacked(args.source, fs::absolute(args.rawlog).parent_path());
-        return importFolder(args, unpacked.sequenceFolder());
+    if (isBag(args.source)) return importBag(args);
+    if (args.bag.no_camera) {
+        throw Error("--no-camera is for ROS bags, and '" + args.source + "' is none",
+                    "leave it away");
     }
     if (isSens(args.source)) return importSens(args);
     if (!isSequenceArchive(args.source)) {

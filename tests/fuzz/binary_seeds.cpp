@@ -6,6 +6,7 @@
 #include "../support/small_sens.h"
 #include "../support/tum_folder.h"
 #include "../support/unpacked.h"
+#include "bag_seeds.h"
 #include "fuzz_targets.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
@@ -113,6 +114,11 @@ std::vector<std::string> binarySeeds(const std::string& target) {
         }
         return {sens.bytes()};
     }
+    if (target == "ros1_bag") return ros1BagSeeds();
+    if (target == "mcap") return mcapSeeds();
+    if (target == "ros2_database") return ros2DatabaseSeeds();
+    if (target == "ros_messages") return rosMessageSeeds();
+    if (target == "compressed_depth") return compressedDepthSeeds();
     throw Error("the corpus of '" + target + "' is text");
 }
 

@@ -134,7 +134,12 @@ const std::vector<NamedTarget>& fuzzTargets() {
                                                      {"intrinsics_json", fuzzIntrinsicsJson},
                                                      {"intrinsics_yaml", fuzzIntrinsicsYaml},
                                                      {"stray_scanner", fuzzStrayScanner},
-                                                     {"sens", fuzzSens}};
+                                                     {"sens", fuzzSens},
+                                                     {"ros1_bag", fuzzRos1Bag},
+                                                     {"mcap", fuzzMcap},
+                                                     {"ros2_database", fuzzRos2Database},
+                                                     {"ros_messages", fuzzRosMessages},
+                                                     {"compressed_depth", fuzzCompressedDepth}};
     return targets;
 }
 

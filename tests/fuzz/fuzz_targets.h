@@ -31,6 +31,14 @@ void fuzzCheckpoint(const std::string& bytes);
 void fuzzBinaryOcTree(const std::string& bytes);
 void fuzzColorOcTree(const std::string& bytes);
 void fuzzPoseGraph(const std::string& bytes);
+/** Bags as rgbd-import reads them. */
+void fuzzRos1Bag(const std::string& bytes);
+void fuzzMcap(const std::string& bytes);
+void fuzzRos2Database(const std::string& bytes);
+/** The bytes behind the first are read as each of ROS's messages; the first tells of which ROS. */
+void fuzzRosMessages(const std::string& bytes);
+/** The bytes behind the first are a packed depth image; the first tells how it is packed. */
+void fuzzCompressedDepth(const std::string& bytes);
 
 struct NamedTarget {
     const char* name;

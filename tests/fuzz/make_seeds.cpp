@@ -11,7 +11,8 @@ int main(int argc, char** argv) {
         return 2;
     }
     for (const std::string target :
-         {"rawlog", "sparse_map", "checkpoint", "binary_octree", "color_octree", "sens"}) {
+         {"rawlog", "sparse_map", "checkpoint", "binary_octree", "color_octree", "ros1_bag", "mcap",
+          "ros2_database", "ros_messages", "compressed_depth", "sens"}) {
         const std::filesystem::path folder = std::filesystem::path(argv[1]) / target;
         std::filesystem::create_directories(folder);
         int number = 0;

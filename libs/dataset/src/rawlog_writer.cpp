@@ -84,13 +84,13 @@ class CompactWriter : public EmbeddedWriter {
   private:
     void storeColor(mrpt::obs::CObservation3DRangeScan& frame, const std::string& name,
                     const std::string& color_file) const {
-        const std::string extension =
-            color_file.empty() ? ".png" : fs::path(color_file).extension().string();
-        const fs::path target = images_ / (name + "_color" + extension);
+        const std::string extension = fs::path(color_file).extension().string();
+        const bool as_it_is = extension == ".png" || extension == ".jpg" || extension == ".jpeg";
+        const fs::path target = images_ / (name + "_color" + (as_it_is ? extension : ".png"));
         std::error_code failure;
-        const bool stored = color_file.empty()
-                                ? cv::imwrite(target.string(), frame.intensityImage.asCvMatRef())
-                                : fs::copy_file(color_file, target, failure);
+        const bool stored = as_it_is
+                                ? fs::copy_file(color_file, target, failure)
+                                : cv::imwrite(target.string(), frame.intensityImage.asCvMatRef());
         if (!stored) throw WriteFailure();
         frame.intensityImage = mrpt::img::CImage();
         frame.intensityImage.setExternalStorage(target.filename().string());

@@ -25,8 +25,8 @@ class RawlogWriter {
 
     virtual void write(mrpt::obs::CObservation& observation) = 0;
 
-    /** \param color_file what the colour image was decoded from; compact storage copies it instead
-     *         of encoding the pixels again. Empty when there is none */
+    /** \param color_file what the colour image was decoded from; compact storage copies it, if it
+     * is PNG or JPEG, instead of encoding the pixels again. Empty when there is none */
     virtual void writeFrame(mrpt::obs::CObservation3DRangeScan& frame,
                             const std::string& color_file) = 0;
 };
