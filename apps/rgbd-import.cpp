@@ -97,6 +97,9 @@ void declare(CLI::App& app, Arguments& args) {
                    "Colour and depth further apart are no pair, s")
         ->check(positive())
         ->capture_default_str();
+    app.add_option("--depth-offset", args.import.depth_offset_s,
+                   "Added to the depth images' stamps, s; for depth that comes early or late")
+        ->type_name("S");
     app.add_option("--threads", args.import.threads, "Threads that decode images")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
@@ -105,7 +108,15 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_flag("--small", args.small,
                  "One compressed file, colour as JPEG: smallest, slower, colour not exact")
         ->excludes("--compact");
-    app.add_flag("--strict", args.import.strict, "A listed file that is missing is an error");
+    app.add_flag("--strict", args.import.strict,
+                 "Refuse a recording with missing files, or with depth that seems wrong: its unit, "
+                 "its place in the colour image or its time");
+    app.add_flag("--allow-loss", args.import.allow_loss,
+                 "Import even when more than half of the frames are lost");
+    app.add_option("--no-reading", args.import.no_reading,
+                   "Raw depth value that means no reading, besides 0; 0: none does; default: "
+                   "detected")
+        ->type_name("VALUE");
     app.add_flag("--skip-damaged", args.import.skip_damaged,
                  "Leave frames with a damaged image out instead of stopping");
     declareSensorUnits(app, args);
@@ -183,7 +194,17 @@ int importRead(const Arguments& args, const RgbdSequence& recorded, SequenceLayo
     if (args.depth_scale > 0) setup.depth_scale = args.depth_scale;
     ImportOptions options = args.import;
     options.depth_camera = besideCamera(sequence, setup);
-    if (!args.depth_camera.empty()) options.depth_camera = readCalibration(args.depth_camera);
+    const fs::path beside = fs::path(sequence.folder) / "camera_depth.ini";
+    if (!args.depth_camera.empty()) {
+        options.depth_camera = readCalibration(args.depth_camera);
+    } else if (!options.depth_camera && fs::exists(beside)) {
+        options.depth_camera = readCameraFile(beside);
+        sayInfo("depth is registered to colour by " + beside.string());
+    }
+    if (args.depth_units > 0 && options.depth_camera) {
+        options.depth_camera->depth_units = args.depth_units;
+        options.depth_camera->depth_units_assumed = false;
+    }
     const ImportReport report = importSequence(sequence, setup, args.rawlog, options);
     std::fputs(toText(report).c_str(), stdout);
     return 0;

@@ -238,6 +238,40 @@ TEST_F(FaultImport, cameraFileWithUnknownKey) {
     expectRefused(import(), "unknown key 'fz'");
 }
 
+TEST_F(FaultImport, cameraFileWithAKeyTwice) {
+    folder_.write("s/camera.ini", small_sequence::cameraIni() + "Fx = 2\n");
+    expectRefused(import(), "'Fx' in line 11 repeats 'fx' of line 3");
+}
+
+TEST_F(FaultImport, principalPointOfLargerImages) {
+    folder_.write("s/camera.ini",
+                  "[CAMERA_PARAMS]\nresolution = [32 24]\nfx = 60\nfy = 60\ncx = 32\ncy = 23.5\n");
+    expectRefused(import(), "principal point (cx 32, cy 23.5) is outside the image of 32x24");
+}
+
+TEST_F(FaultImport, depthCameraFileThatIsBroken) {
+    folder_.write("s/camera_depth.ini", "[CAMERA_PARAMS]\nfx = 3\n");
+    expectRefused(import(), "camera_depth.ini");
+}
+
+TEST_F(FaultImport, mostFramesLost) {
+    for (const int frame : {0, 1, 3}) fs::remove(depthPath(frame));
+    expectRefused(import(), "only 1 of 4 frames");
+    expectRefused(import("--strict"), "is missing");
+    EXPECT_EQ(import("--allow-loss").exit_code, 0);
+}
+
+TEST_F(FaultImport, strictRefusesDepthInAnImplausibleUnit) {
+    EXPECT_EQ(import("--depth-units 200").exit_code, 0);
+    fs::remove(rawlog());
+    expectRefused(import("--strict --depth-units 200"), "would give a median of");
+}
+
+TEST_F(FaultImport, noReadingOutOfRange) {
+    EXPECT_NE(import("--no-reading 70000").exit_code, 0);
+    expectNothingWritten();
+}
+
 TEST_F(FaultImport, stampsOutOfReach) {
     expectRefused(import("--max-difference 0.001"), "within 0.001 s of each other");
 }

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <cmath>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <vector>
 
@@ -27,6 +28,12 @@ const std::vector<std::string> own_keys = {"depth_units", "depth_scale", "sensor
 /** MRPT takes a comment line with an equals sign for a key. */
 bool isComment(const std::string& key) {
     return key.rfind("//", 0) == 0 || key[0] == '#';
+}
+
+std::string lowerCase(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
 }
 
 bool contains(const std::vector<std::string>& list, const std::string& item) {
@@ -51,10 +58,12 @@ class CameraFile {
         }
         if (!config_.sectionExists(section))
             refuse("has no section [" + std::string(section) + "]");
+        refuseRepeatedKeys(text.str());
         checkKeys();
     }
 
     Camera camera() {
+        completeDistortion();
         if (!has("dist")) config_.write(section, "dist", std::string("[0 0 0 0 0]"));
         if (!has("distortion_model")) {
             config_.write(section, "distortion_model", std::string("plumb_bob"));
@@ -67,6 +76,7 @@ class CameraFile {
         }
         checkLens(camera);
         const Camera own = toCamera(camera);
+        if (!own.contains({own.cx, own.cy})) refuse(doubtsOf(own).front());
         if (!own.undoesDistortion()) refuse("dist: this distortion cannot be undone in the image");
         return own;
     }
@@ -106,6 +116,44 @@ class CameraFile {
                 refuse(key + ": '" + word + "' is no number");
         }
         return numbers;
+    }
+
+    /** MRPT takes keys that differ in case only for one, and the last value for its value. */
+    void refuseRepeatedKeys(const std::string& text) const {
+        std::istringstream lines(text);
+        std::map<std::string, std::pair<std::string, int>> seen;  // by the key in lower case
+        bool in_section = false;
+        int number = 1;
+        for (std::string line; std::getline(lines, line); ++number) {
+            const auto start = line.find_first_not_of(" \t\r");
+            if (start == std::string::npos || isComment(line.substr(start)) || line[start] == ';') {
+                continue;
+            }
+            if (line[start] == '[') {
+                in_section = lowerCase(line.substr(start + 1, line.find(']') - start - 1)) ==
+                             lowerCase(section);
+                continue;
+            }
+            const auto end = line.find_first_of(" \t=", start);
+            const std::string key = line.substr(start, end - start);
+            if (!in_section || line.find('=') == std::string::npos) continue;
+            const auto [first, is_new] = seen.insert({lowerCase(key), {key, number}});
+            if (is_new) continue;
+            refuse("'" + key + "' in line " + std::to_string(number) + " repeats '" +
+                   first->second.first + "' of line " + std::to_string(first->second.second) +
+                   ", leave one");
+        }
+    }
+
+    /** MRPT wants five coefficients; four are those of OpenCV without k3. */
+    void completeDistortion() {
+        const std::string model = config_.read_string(section, "distortion_model", "plumb_bob");
+        if (!has("dist") || model == "kannala_brandt") return;
+        const auto n = numbersOf("dist");
+        if (n.size() != 4) return;
+        std::string five = "[";
+        for (const double coefficient : n) five += shortest(coefficient) + " ";
+        config_.write(section, "dist", five + "0]");
     }
 
     void checkKeys() const {
@@ -195,9 +243,7 @@ std::optional<CameraSetup> cameraByName(const std::string& name) {
 }
 
 std::optional<CameraSetup> cameraByFolderName(const std::string& folder) {
-    std::string name = folder;
-    std::transform(name.begin(), name.end(), name.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    const std::string name = lowerCase(folder);
     for (const std::string number : {"1", "2", "3"}) {
         for (const std::string prefix : {"freiburg", "fr"}) {
             const auto at = name.find(prefix + number);
@@ -207,6 +253,52 @@ std::optional<CameraSetup> cameraByFolderName(const std::string& folder) {
         }
     }
     return std::nullopt;
+}
+
+std::vector<std::string> doubtsOf(const Camera& camera) {
+    constexpr double narrowest_deg = 15, widest_deg = 150, farthest_off = 0.25;
+    const double off_x = std::abs(camera.cx - 0.5 * (camera.width - 1)) / camera.width;
+    const double off_y = std::abs(camera.cy - 0.5 * (camera.height - 1)) / camera.height;
+    std::vector<std::string> doubts;
+    char text[240];
+    if (!(off_x <= farthest_off) || !(off_y <= farthest_off)) {
+        const bool outside = !(off_x <= 0.5) || !(off_y <= 0.5);
+        std::snprintf(text, sizeof text,
+                      "the principal point (cx %.6g, cy %.6g) is %s the image of %dx%d pixels; it "
+                      "should be near %.6g, %.6g, unless the calibration is for another resolution",
+                      camera.cx, camera.cy, outside ? "outside" : "far from the center of",
+                      camera.width, camera.height, 0.5 * (camera.width - 1),
+                      0.5 * (camera.height - 1));
+        doubts.emplace_back(text);
+    }
+    const double view_deg = 360 / M_PI * std::atan(0.5 * camera.width / camera.fx);
+    if (view_deg < narrowest_deg || view_deg > widest_deg) {
+        std::snprintf(text, sizeof text,
+                      "fx = %.6g means a field of view of %.0f degrees; usual cameras have 40 to "
+                      "90, fx = %.0f to %.0f",
+                      camera.fx, view_deg, 0.5 * camera.width, 1.37 * camera.width);
+        doubts.emplace_back(text);
+    }
+    return doubts;
+}
+
+std::optional<Camera> resizedTo(const Camera& camera, int width, int height) {
+    constexpr int largest_factor = 8;
+    const int more = std::max(width, camera.width), less = std::min(width, camera.width);
+    const bool same_aspect =
+        std::int64_t{width} * camera.height == std::int64_t{height} * camera.width;
+    if (less <= 0 || !same_aspect || more % less != 0 || more / less > largest_factor) {
+        return std::nullopt;
+    }
+    const double factor = static_cast<double>(width) / camera.width;
+    Camera resized = camera;
+    resized.width = width;
+    resized.height = height;
+    resized.fx *= factor;
+    resized.fy *= factor;
+    resized.cx = (camera.cx + 0.5) * factor - 0.5;  // pixel (0, 0) is a pixel's center
+    resized.cy = (camera.cy + 0.5) * factor - 0.5;
+    return resized;
 }
 
 CameraSetup readCameraFile(const std::string& path) {

@@ -69,12 +69,27 @@ void tallyLeftOver(const std::vector<double>& own, const std::vector<bool>& pair
     }
 }
 
+void refuseLoss(std::size_t pairs, const RgbdSequence& sequence, const ImportOptions& options,
+                const ImportReport& report) {
+    const std::size_t possible = std::min(report.color.listed, report.depth.listed);
+    if (2 * pairs >= possible) return;
+    const std::size_t missing = report.color.missing + report.depth.missing;
+    throw Error("only " + std::to_string(pairs) + " of " + std::to_string(possible) +
+                    " frames of '" + sequence.folder + "' have colour and depth within " +
+                    shortest(options.max_difference_s) + " s of each other" +
+                    (missing > 0 ? " (" + std::to_string(missing) + " listed files are missing)"
+                                 : std::string()),
+                "check stamps and files, raise --max-difference, or pass --allow-loss to import "
+                "what there is");
+}
+
 }  // namespace
 
 std::vector<FramePair> pairUp(const RgbdSequence& sequence, const ImportOptions& options,
                               ImportReport& report) {
     const auto color = usableImages(sequence, sequence.color, options.strict, report.color);
-    const auto depth = usableImages(sequence, sequence.depth, options.strict, report.depth);
+    auto depth = usableImages(sequence, sequence.depth, options.strict, report.depth);
+    for (ListedImage& image : depth) image.stamp_s += options.depth_offset_s;
     const auto color_stamps = stampsOf(color), depth_stamps = stampsOf(depth);
     std::vector<bool> color_paired(color.size()), depth_paired(depth.size());
     std::vector<FramePair> pairs;
@@ -90,6 +105,7 @@ std::vector<FramePair> pairUp(const RgbdSequence& sequence, const ImportOptions&
                         missingText(report),
                     "check rgb.txt and depth.txt, or raise --max-difference");
     }
+    if (!options.allow_loss) refuseLoss(pairs.size(), sequence, options, report);
     return pairs;
 }
 

@@ -1,133 +1,171 @@
 #include "rgbd_graphslam/dataset/registration_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
-#include <vector>
+#include <cstdio>
+#include <opencv2/core.hpp>
+
+#include "edge_maps.h"
 
 namespace rgbd_graphslam {
 namespace {
 
-/** Edges are compared on images of this width: finer ones add time and noise. */
-constexpr int reduced_width = 320;
-constexpr double least_jump = 0.06;  // of the nearer depth
-/** Depth often lacks beside a jump; over wider gaps (of 640 pixels) nothing is concluded. */
-constexpr double longest_gap = 30.0 / 640;
-constexpr std::size_t fewest_edges = 60, fewest_frames = 3;
-constexpr double strongest_edge = 4;   // times the mean; beyond, an edge counts no more
-constexpr double least_shift = 0.015;  // of the width
-constexpr double halves_agree_px = 3;  // of the reduced image
-constexpr int zero_px = 3;             // shifts so small count as none, of the reduced image
-constexpr double least_gain = 0.3;     // standard deviations a frame
-
-/** Strength of the colour edges of the reduced image, 1 on average. */
-cv::Mat1f colorEdges(const cv::Mat& color, double scale) {
-    cv::Mat grey, reduced;
-    cv::cvtColor(color, grey, cv::COLOR_BGR2GRAY);
-    cv::resize(grey, reduced, {}, scale, scale, cv::INTER_AREA);
-    cv::Mat1f across, down, strength;
-    cv::Sobel(reduced, across, CV_32F, 1, 0);
-    cv::Sobel(reduced, down, CV_32F, 0, 1);
-    cv::magnitude(across, down, strength);
-    const double mean = std::max(1e-6, cv::mean(strength)[0]);
-    return cv::min(strength, strongest_edge * mean) / mean;
-}
-
-/** Calls take(i) at the nearer side of each jump along a line. \param at depth at i, 0 = none */
-template <class At, class Take>
-void findJumps(int length, int gap, At at, Take take) {
-    int last = -1;
-    for (int i = 0; i < length; ++i) {
-        const int depth = at(i);
-        if (depth == 0) continue;
-        if (last >= 0 && i - last <= gap) {
-            const int before = at(last);
-            if (std::abs(depth - before) > least_jump * std::min(depth, before)) {
-                take(depth < before ? i : last);
-            }
-        }
-        last = i;
-    }
-}
-
-/** The outlines of things in depth, every other row and column, in pixels of the reduced image. */
-std::vector<cv::Point> depthEdges(const cv::Mat1w& depth, double scale) {
-    const int gap = static_cast<int>(longest_gap * depth.cols);
-    std::vector<cv::Point> edges;
-    const auto add = [&](int u, int v) {
-        edges.emplace_back(static_cast<int>(u * scale), static_cast<int>(v * scale));
-    };
-    for (int v = 0; v < depth.rows; v += 2) {
-        findJumps(
-            depth.cols, gap, [&](int u) { return depth(v, u); }, [&](int u) { add(u, v); });
-    }
-    for (int u = 0; u < depth.cols; u += 2) {
-        findJumps(
-            depth.rows, gap, [&](int v) { return depth(v, u); }, [&](int v) { add(u, v); });
-    }
-    return edges;
-}
-
-/** Mean strength of colour where depth has edges, these moved by up to `reach` pixels. */
-cv::Mat1d agreement(const cv::Mat1f& strength, const std::vector<cv::Point>& edges, int reach) {
-    cv::Mat1d result(2 * reach + 1, 2 * reach + 1, 0.0);
-    for (int y = -reach; y <= reach; ++y) {
-        for (int x = -reach; x <= reach; ++x) {
-            double sum = 0;
-            int count = 0;
-            for (const auto& edge : edges) {
-                const unsigned u = edge.x + x, v = edge.y + y;
-                if (u >= unsigned(strength.cols) || v >= unsigned(strength.rows)) continue;
-                sum += strength(static_cast<int>(v), static_cast<int>(u));
-                ++count;
-            }
-            result(y + reach, x + reach) = sum / std::max(1, count);
-        }
-    }
-    return result;
-}
-
-/** In standard deviations from the mean over all shifts, smoothed. */
-cv::Mat1d standardised(const cv::Mat1d& values) {
-    cv::Scalar mean, deviation;
-    cv::meanStdDev(values, mean, deviation);
-    cv::Mat1d result = (values - mean[0]) / std::max(1e-9, deviation[0]);
-    cv::GaussianBlur(result, result, {0, 0}, 1);
-    return result;
-}
-
-cv::Point peakOf(const cv::Mat1d& values) {
-    cv::Point peak;
-    cv::minMaxLoc(values, nullptr, nullptr, nullptr, &peak);
-    return peak;
-}
+/** Widths that images are reduced to: for the search, and for the end of it. */
+constexpr int coarse_width = 160, fine_width = 320;
+constexpr std::size_t most_outlines = 600, fewest_outlines = 60, fewest_frames = 4;
+/** Of the coarse image: shifts tried at each scale, and without scaling. */
+constexpr int reach_scaled = 8, reach_unscaled = 20;
+constexpr int scales_each_way = 35;  // steps of 2 % from 1/2 to 2
+/** Of the fine image, around what the search found. */
+constexpr int reach_fine = 4, fine_steps = 6;
+constexpr double fine_step = 0.005;
+constexpr double least_scale = 0.03, least_shift = 0.015;  // of the width
+/** Even and odd frames must find the same. */
+constexpr double halves_agree_scale = 0.05;
+constexpr double halves_agree_px = 4;  // of the coarse image
+/** Gain over the best near the place where depth is supposed to be: as a share of the agreement,
+ * and over the frames in standard deviations of its mean. Agreement against chance: in standard
+ *  deviations of all hypotheses. */
+constexpr double least_gain = 0.05, least_significance = 2.5, least_agreement = 3;
 
 }  // namespace
 
-void RegistrationCheck::add(const cv::Mat& color, const cv::Mat& depth) {
-    const double scale = std::min(1.0, static_cast<double>(reduced_width) / color.cols);
-    const auto edges = depthEdges(depth, scale);
-    if (edges.size() < fewest_edges) return;
-    width_ = color.cols;
-    agreement_[frames_++ % 2] += standardised(agreement(colorEdges(color, scale), edges, reach));
+std::string toText(const Misregistration& found, double fx_px) {
+    char text[240];
+    if (found.isScaled()) {
+        std::snprintf(
+            text, sizeof text,
+            "depth seems to be %.2f times as large about the image center as it should: "
+            "it was probably never registered to colour (focal length of the depth camera "
+            "about %.0f px, of the colour camera %.0f px)",
+            found.scale, found.scale * fx_px, fx_px);
+    } else {
+        std::snprintf(text, sizeof text,
+                      "depth seems shifted against colour by %.0f px to the right and %.0f px down",
+                      found.shift_px.x(), found.shift_px.y());
+    }
+    return text;
 }
 
-std::optional<Eigen::Vector2d> RegistrationCheck::misalignment() const {
-    if (frames_ < fewest_frames) return std::nullopt;
-    const cv::Mat1d all = agreement_[0] + agreement_[1];
-    const cv::Point center(reach, reach), peak = peakOf(all);
-    for (const auto& half : agreement_) {
-        if (cv::norm(peakOf(half) - peak) > halves_agree_px) return std::nullopt;
+void RegistrationCheck::add(const cv::Mat& color, const cv::Mat& depth) {
+    Frame frame;
+    frame.outlines = depthOutlines(depth, most_outlines);
+    if (frame.outlines.size() < fewest_outlines) return;
+    width_ = color.cols;
+    frame.coarse = edgeContrast(color, coarse_width);
+    frame.fine = edgeContrast(color, fine_width);
+    frames_.push_back(std::move(frame));
+}
+
+/** Of the even frames, the odd ones and all: the best hypothesis and how all are spread. */
+struct RegistrationCheck::Search {
+    struct Tally {
+        Hypothesis best;
+        double sum = 0, squares = 0;
+        std::size_t count = 0;
+
+        void take(double scale, const cv::Mat1d& agreements) {
+            const int reach = agreements.cols / 2;
+            for (int y = -reach; y <= reach; ++y) {
+                for (int x = -reach; x <= reach; ++x) {
+                    const double agreement = agreements(y + reach, x + reach);
+                    if (count == 0 || agreement > best.agreement) {
+                        best = {scale, {static_cast<double>(x), static_cast<double>(y)}, agreement};
+                    }
+                    sum += agreement;
+                    squares += agreement * agreement;
+                    ++count;
+                }
+            }
+        }
+        double mean() const { return sum / static_cast<double>(count); }
+        double deviation() const {
+            return std::sqrt(
+                std::max(1e-12, squares / static_cast<double>(count) - mean() * mean()));
+        }
+    };
+    std::array<Tally, 2> halves;
+    Tally all;
+
+    /** \return whether even and odd frames find the same */
+    bool halvesAgree() const {
+        const Hypothesis &a = halves[0].best, &b = halves[1].best;
+        return std::abs(std::log(a.scale / b.scale)) < halves_agree_scale &&
+               cv::norm(a.shift - b.shift) < halves_agree_px;
     }
-    double unmoved = 0;
-    const cv::Rect near_zero(center - cv::Point(zero_px, zero_px),
-                             cv::Size(2 * zero_px + 1, 2 * zero_px + 1));
-    cv::minMaxLoc(all(near_zero), nullptr, &unmoved);
-    const double pixels = width_ / static_cast<double>(std::min(width_, reduced_width));
-    const Eigen::Vector2d off = pixels * Eigen::Vector2d(center.x - peak.x, center.y - peak.y);
-    const bool clear = all(peak) - unmoved > least_gain * static_cast<double>(frames_);
-    if (!clear || off.norm() < least_shift * width_) return std::nullopt;
-    return off;
+};
+
+RegistrationCheck::Search RegistrationCheck::searched() const {
+    Search search;
+    const auto tryAll = [&](double scale, int reach) {
+        const int side = 2 * reach + 1;
+        std::array<cv::Mat1d, 2> sums = {cv::Mat1d(side, side, 0.0), cv::Mat1d(side, side, 0.0)};
+        for (std::size_t i = 0; i < frames_.size(); ++i) {
+            sums[i % 2] +=
+                agreementAt(frames_[i].coarse, frames_[i].outlines, width_, {scale, {}}, reach);
+        }
+        for (int half = 0; half < 2; ++half) search.halves[half].take(scale, sums[half]);
+        search.all.take(scale, sums[0] + sums[1]);
+    };
+    for (int step = -scales_each_way; step <= scales_each_way; ++step) {
+        tryAll(std::pow(2, static_cast<double>(step) / scales_each_way), reach_scaled);
+    }
+    tryAll(1, reach_unscaled);
+    return search;
+}
+
+RegistrationCheck::Hypothesis RegistrationCheck::refined(const Hypothesis& coarse) const {
+    const double finer = static_cast<double>(frames_.front().fine.cols) /
+                         static_cast<double>(frames_.front().coarse.cols);
+    Hypothesis best;
+    for (int step = -fine_steps; step <= fine_steps; ++step) {
+        const Placement at{coarse.scale * (1 + fine_step * step), finer * coarse.shift};
+        cv::Mat1d sum(2 * reach_fine + 1, 2 * reach_fine + 1, 0.0);
+        for (const Frame& frame : frames_) {
+            sum += agreementAt(frame.fine, frame.outlines, width_, at, reach_fine);
+        }
+        double agreement = 0;
+        cv::Point place;
+        cv::minMaxLoc(sum, nullptr, &agreement, nullptr, &place);
+        if (step > -fine_steps && agreement <= best.agreement) continue;
+        const cv::Point2d moved(place.x - reach_fine, place.y - reach_fine);
+        best = {at.scale, at.shift + moved, agreement};
+    }
+    return best;
+}
+
+bool RegistrationCheck::isClearlyBetter(const Hypothesis& best, const Hypothesis& supposed) const {
+    double sum = 0, squares = 0;
+    for (const Frame& frame : frames_) {
+        const auto agreement = [&](const Hypothesis& at) {
+            return agreementAt(frame.fine, frame.outlines, width_, {at.scale, at.shift}, 0)(0, 0);
+        };
+        const double gain = agreement(best) - agreement(supposed);
+        sum += gain;
+        squares += gain * gain;
+    }
+    const auto count = static_cast<double>(frames_.size());
+    const double variance = std::max(1e-9, squares / count - sum / count * (sum / count));
+    return sum > least_gain * best.agreement &&
+           sum / count > least_significance * std::sqrt(variance / count);
+}
+
+std::optional<Misregistration> RegistrationCheck::finding() const {
+    if (frames_.size() < fewest_frames) return std::nullopt;
+    const Search search = searched();
+    if (!search.halvesAgree()) return std::nullopt;
+    const Hypothesis best = refined(search.all.best), supposed = refined({});
+    Misregistration found;
+    found.scale = std::abs(best.scale - 1) < least_scale ? 1 : 1 / best.scale;
+    const double pixels = static_cast<double>(width_) / frames_.front().fine.cols;
+    found.shift_px = -pixels * Eigen::Vector2d(best.shift.x, best.shift.y);
+    found.agreement = best.agreement / static_cast<double>(frames_.size());
+    const bool is_off = found.isScaled() || found.shift_px.norm() >= least_shift * width_;
+    const bool is_placed =
+        best.agreement - search.all.mean() > least_agreement * search.all.deviation();
+    if (!is_off || !is_placed || !isClearlyBetter(best, supposed)) return std::nullopt;
+    return found;
 }
 
 }  // namespace rgbd_graphslam

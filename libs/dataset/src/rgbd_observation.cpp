@@ -1,12 +1,18 @@
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
+#include <memory>
+#include <mutex>
 #include <opencv2/imgproc.hpp>
 
 #include "number_text.h"
 #include "reading_guards.h"
+#include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/depth_registration.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 
 namespace rgbd_graphslam {
@@ -82,6 +88,122 @@ cv::Mat asColorOrGrey(const CObservation3DRangeScan& observation, cv::Mat pixels
     return pixels;
 }
 
+cv::Size depthSize(const CObservation3DRangeScan& observation) {
+    return {static_cast<int>(observation.rangeImage.cols()),
+            static_cast<int>(observation.rangeImage.rows())};
+}
+
+/** Empty while it is not known: images outside the rawlog may not be loaded yet. */
+cv::Size colorSize(const CObservation3DRangeScan& observation) {
+    const auto& image = observation.intensityImage;
+    if (!observation.hasIntensityImage || image.isExternallyStored() || image.isEmpty()) {
+        return depthSize(observation);
+    }
+    return {static_cast<int>(image.getWidth()), static_cast<int>(image.getHeight())};
+}
+
+void sayResized(const Camera& camera, const Camera& resized) {
+    static std::once_flag said;
+    std::call_once(said, [&] {
+        char text[240];
+        std::snprintf(text, sizeof text,
+                      "the rawlog's calibration is for %dx%d pixels, its images have %dx%d: taken "
+                      "as resized (fx = %.6g, fy = %.6g, cx = %.6g, cy = %.6g)",
+                      camera.width, camera.height, resized.width, resized.height, resized.fx,
+                      resized.fy, resized.cx, resized.cy);
+        sayWarning(text);
+    });
+}
+
+/** A calibration for images of this size, if one for another size can be made to fit. */
+Camera fitted(const mrpt::img::TCamera& calibration, cv::Size size) {
+    const Camera camera = toCamera(calibration);
+    const bool unknown = size.area() == 0 || camera.width == 0 || camera.height == 0;
+    if (unknown || size == cv::Size(camera.width, camera.height)) return camera;
+    const auto resized = resizedTo(camera, size.width, size.height);
+    if (!resized) return camera;
+    sayResized(camera, *resized);
+    return *resized;
+}
+
+SE3 colorFromDepth(const CObservation3DRangeScan& observation) {
+    return toSE3(observation.relativePoseIntensityWRTDepth).inverse() *
+           T_optical_from_mrpt.inverse();
+}
+
+bool same(const Camera& a, const Camera& b) {
+    return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
+           a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion;
+}
+
+bool isIdentity(const SE3& T) {
+    return T.t.norm() < 1e-5 && (T.R - Eigen::Matrix3d::Identity()).norm() < 1e-5;
+}
+
+/** What registers depth of an observation: the same for all of a recording, and slow to make. */
+struct Registrar {
+    Camera depth, color;
+    SE3 T_color_depth;
+    double unit_m = 0;
+    std::shared_ptr<const DepthRegistration> registration;
+
+    bool serves(const Registrar& other) const {
+        return same(depth, other.depth) && same(color, other.color) && unit_m == other.unit_m &&
+               T_color_depth.R == other.T_color_depth.R && T_color_depth.t == other.T_color_depth.t;
+    }
+};
+
+std::shared_ptr<const DepthRegistration> registrationBy(Registrar wanted) {
+    static std::mutex mutex;
+    static Registrar last;
+    const std::lock_guard lock(mutex);
+    if (!last.registration || !last.serves(wanted)) {
+        wanted.registration = std::make_shared<DepthRegistration>(
+            wanted.depth, wanted.color, wanted.T_color_depth, wanted.unit_m);
+        last = std::move(wanted);
+        static std::once_flag said;
+        std::call_once(said, [] {
+            sayInfo("the rawlog's depth is of a camera of its own: registered to colour");
+        });
+    }
+    return last.registration;
+}
+
+/** \throws Error when the two cameras cannot lie so */
+void checkDepthCamera(const CObservation3DRangeScan& observation, const Registrar& cameras) {
+    constexpr double farthest_apart_m = 0.5, widest_turn = 0.7;  // rad
+    const Camera& depth = cameras.depth;
+    if (!(depth.fx > 0 && depth.fy > 0) || !std::isfinite(depth.fx * depth.fy) ||
+        !std::isfinite(depth.cx + depth.cy) || !depth.undoesDistortion()) {
+        refuse(observation, "depth is of another camera, whose calibration is unusable");
+    }
+    const SE3& T = cameras.T_color_depth;
+    const double turn = std::acos(std::clamp((T.R.trace() - 1) / 2, -1.0, 1.0));
+    if (!(T.t.norm() < farthest_apart_m) || !(turn < widest_turn)) {
+        refuse(observation,
+               "depth is of another camera, whose pose beside the colour camera is implausible");
+    }
+}
+
+/** Depth as the colour camera would see it; the very same where one camera took both. */
+cv::Mat registeredDepth(const CObservation3DRangeScan& observation, const cv::Mat& depth,
+                        cv::Size color_size) {
+    Registrar cameras;
+    cameras.color = fitted(observation.cameraParamsIntensity, color_size);
+    cameras.depth = fitted(observation.cameraParams, depth.size());
+    cameras.T_color_depth = colorFromDepth(observation);
+    cameras.unit_m = observation.rangeUnits;
+    if (same(cameras.depth, cameras.color) && isIdentity(cameras.T_color_depth)) return depth;
+    if (cameras.color.width == 0) {
+        cameras.color.width = color_size.width;
+        cameras.color.height = color_size.height;
+    }
+    cameras.depth.width = depth.cols;
+    cameras.depth.height = depth.rows;
+    checkDepthCamera(observation, cameras);
+    return (*registrationBy(std::move(cameras)))(depth);
+}
+
 }  // namespace
 
 RgbdImage colorAndDepth(const CObservation3DRangeScan::Ptr& observation) {
@@ -95,6 +217,7 @@ RgbdImage colorAndDepth(const CObservation3DRangeScan::Ptr& observation) {
     image.owner = observation;
     const cv::Mat pixels = asColorOrGrey(
         *observation, observation->intensityImage.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY));
+    image.depth = registeredDepth(*observation, image.depth, pixels.size());
     if (pixels.size() != image.depth.size()) {
         refuse(*observation, "colour and depth differ in size");
     }
@@ -110,16 +233,17 @@ RgbdImage toRgbdImage(const CObservation3DRangeScan::Ptr& observation) {
 
 Camera cameraOf(const CObservation3DRangeScan& observation) {
     constexpr int largest_image_px = 1 << 16;
-    const Camera camera = toCamera(observation.cameraParamsIntensity);
-    const bool has_focus = camera.fx > 0 && camera.fy > 0 && std::isfinite(camera.fx * camera.fy);
-    if (!has_focus || !std::isfinite(camera.cx + camera.cy)) {
+    const Camera stated = toCamera(observation.cameraParamsIntensity);
+    const bool has_focus = stated.fx > 0 && stated.fy > 0 && std::isfinite(stated.fx * stated.fy);
+    if (!has_focus || !std::isfinite(stated.cx + stated.cy)) {
         refuse(observation, "its calibration has no usable fx, fy, cx, cy");
     }
-    for (const int side : {camera.width, camera.height}) {
+    for (const int side : {stated.width, stated.height}) {
         if (side < 0 || side > largest_image_px) {
             refuse(observation, "its calibration is for images of an impossible size");
         }
     }
+    const Camera camera = fitted(observation.cameraParamsIntensity, colorSize(observation));
     if (!camera.undoesDistortion()) {
         refuse(observation, "its calibration has a lens distortion that cannot be undone");
     }

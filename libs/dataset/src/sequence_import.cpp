@@ -9,16 +9,14 @@
 
 #include "depth_confidence.h"
 #include "frame_pairs.h"
+#include "frame_source.h"
 #include "number_text.h"
 #include "ordered_jobs.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/progress.h"
-#include "rgbd_graphslam/dataset/depth_registration.h"
 #include "rgbd_graphslam/dataset/depth_stamps.h"
-#include "rgbd_graphslam/dataset/image_file.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
-#include "rgbd_graphslam/dataset/registration_check.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/dataset/sensor_hints.h"
 #include "sensor_entries.h"
@@ -39,70 +37,6 @@ DepthStamps depthStampsOf(const std::vector<FramePair>& pairs) {
 
 /** Over a sequence, so many frames are looked at for how depth lies to colour. */
 constexpr std::size_t frames_checked = 20;
-
-/** A frame on its way from disk to rawlog. */
-struct LoadedFrame {
-    std::string color_file;
-    cv::Mat color, depth;
-    std::string damage;
-    /** Depth came in meters. */
-    bool converted = false;
-};
-
-void checkSize(const std::string& file, const cv::Mat& pixels, const Camera& camera) {
-    if (pixels.cols == camera.width && pixels.rows == camera.height) return;
-    const auto size = [](int columns, int rows) {
-        return std::to_string(columns) + "x" + std::to_string(rows);
-    };
-    throw Error("'" + file + "' has " + size(pixels.cols, pixels.rows) + " pixels, the camera " +
-                    size(camera.width, camera.height),
-                "colour and depth must have one size, which --camera FILE.ini gives as resolution");
-}
-
-/** What is common to all frames of an import. */
-struct FrameSource {
-    const RgbdSequence& sequence;
-    Camera color_camera, depth_camera;
-    std::optional<DepthRegistration> registration;
-    /** Units per meter, for depth in meters. */
-    double depth_units;
-
-    FrameSource(const RgbdSequence& recorded, const CameraSetup& setup,
-                const std::optional<CameraSetup>& depth)
-        : sequence(recorded),
-          color_camera(setup.camera),
-          depth_camera(depth ? depth->camera : setup.camera),
-          depth_units(1 / (depth ? *depth : setup).depthUnitInMetres()) {
-        if (!depth) return;
-        const SE3 T_color_depth = T_optical_from_mrpt * setup.T_base_sensor.inverse() *
-                                  depth->T_base_sensor * T_optical_from_mrpt.inverse();
-        registration.emplace(depth_camera, color_camera, T_color_depth, depth->depthUnitInMetres());
-    }
-};
-
-LoadedFrame load(const FrameSource& source, const FramePair& pair) {
-    const RgbdSequence& sequence = source.sequence;
-    const std::string color_file = fs::path(sequence.folder) / pair.color.file;
-    const std::string depth_file = fs::path(sequence.folder) / pair.depth.file;
-    DecodedImage color = readColorImage(color_file),
-                 depth = readDepthImage(depth_file, source.depth_units);
-    std::string damage = color.damage.empty() ? depth.damage : color.damage;
-    if (damage.empty()) damage = dropUnconfident(sequence, pair.depth.file, depth.pixels);
-    if (!damage.empty()) return {color_file, {}, {}, damage};
-    checkSize(color_file, color.pixels, source.color_camera);
-    checkSize(depth_file, depth.pixels, source.depth_camera);
-    if (sequence.no_reading != 0) depth.pixels.setTo(0, depth.pixels == sequence.no_reading);
-    if (source.registration) depth.pixels = (*source.registration)(depth.pixels);
-    return {color_file, color.pixels, depth.pixels, {}, depth.converted};
-}
-
-CameraSetup withDepthUnitOf(const std::optional<CameraSetup>& depth, CameraSetup setup) {
-    if (!depth) return setup;
-    setup.depth_units = depth->depth_units;
-    setup.depth_scale = depth->depth_scale;
-    setup.depth_units_assumed = depth->depth_units_assumed;
-    return setup;
-}
 
 /** What is wrong with depth's unit, and which would be plausible; empty when nothing is. */
 std::string doubtOfUnits(const DepthHistogram& depth, double units, bool assumed) {
@@ -132,16 +66,36 @@ std::string depthMaxText(const DepthSummary& summary, double depth_max_m) {
     return text;
 }
 
+std::string registrationText(const Misregistration& found, double fx_px, bool is_registered) {
+    return toText(found, fx_px) +
+           (is_registered ? "; check the cameras' calibrations and poses"
+                          : "; register it with --register camera_depth.ini, see --help");
+}
+
+std::string lagText(const DepthLag& lag, double offset_s) {
+    char text[240];
+    std::snprintf(text, sizeof text,
+                  "depth seems to come %.0f ms %s than colour (%d frame%s): its outlines fit the "
+                  "colour images of then; correct its stamps with --depth-offset %.3f",
+                  1e3 * std::abs(lag.seconds), lag.seconds > 0 ? "later" : "earlier",
+                  std::abs(lag.frames), std::abs(lag.frames) == 1 ? "" : "s",
+                  offset_s - lag.seconds);
+    return text;
+}
+
 /** Writes one import's entries in order of time. */
 class Import {
   public:
     Import(const RgbdSequence& sequence, const CameraSetup& setup, const ImportOptions& options)
         : sequence_(sequence),
-          setup_(withDepthUnitOf(options.depth_camera, setup)),
           options_(options),
-          source_(sequence, setup, options.depth_camera),
           pairs_(pairUp(sequence, options, report_)),
-          sensors_(sensorEntries(sequence, setup, report_)) {}
+          source_(sequence, setup, options, pairs_),
+          setup_(source_.setup()),
+          lag_(pairs_.size()),
+          sensors_(sensorEntries(sequence, setup, report_)) {
+        judgeCalibration();
+    }
 
     void write(RawlogWriter& writer) {
         writeComment(writer);
@@ -150,21 +104,27 @@ class Import {
         std::size_t next_load = 0, next_sensor = 0;
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
             for (; next_load < pairs_.size() && loading.size() < ahead(); ++next_load) {
-                loading.push([this, &pair = pairs_[next_load]] { return load(source_, pair); });
+                loading.push([this, &pair = pairs_[next_load]] { return source_.load(pair); });
             }
             writeSensorsUntil(toMrptTime(pairs_[i].color.stamp_s), next_sensor, writer);
             writeFrame(pairs_[i], loading.pop(), writer);
             progress.update(i + 1);
         }
         writeSensorsUntil(mrpt::Clock::time_point::max(), next_sensor, writer);
-        report_.misalignment_px = registration_.misalignment();
         report_.notes = sequence_.notes;
         if (converted_ > 0) {
             report_.notes.push_back(std::to_string(converted_) +
                                     " depth images in meters, converted to " +
-                                    shortest(std::round(source_.depth_units)) + " units per meter");
+                                    shortest(std::round(source_.depthUnits())) + " units per meter");
         }
-        judgeDepth();
+        report_.notes.insert(report_.notes.end(), source_.notes().begin(), source_.notes().end());
+        judgeRegistration();
+        judgeDepthUnit();
+        if (options_.strict && !report_.warnings.empty()) {
+            throw Error(report_.warnings.front(),
+                        "or leave out --strict to import it all the same");
+        }
+        judgeMaxDepth();
     }
 
     const ImportReport& report() const { return report_; }
@@ -200,6 +160,7 @@ class Import {
         }
         const std::size_t stride = std::max<std::size_t>(1, pairs_.size() / frames_checked);
         if (report_.frames % stride == 0) registration_.add(loaded.color, loaded.depth);
+        lag_.add(pair.color.stamp_s, loaded.color, loaded.depth);
         depth_histogram_.add(loaded.depth);
         converted_ += loaded.converted;
         const auto frame = makeRgbdObservation(setup_, pair.color.stamp_s);
@@ -224,27 +185,60 @@ class Import {
         ++report_.damaged;
     }
 
-    /** Whether depth's unit, and rgbd-slam's default maximum, suit the recording. */
-    void judgeDepth() {
-        report_.depth_summary = summarize(depth_histogram_, setup_.depthUnitInMetres());
-        const double units = 1 / setup_.depthUnitInMetres();
-        const std::string doubt = doubtOfUnits(depth_histogram_, units, setup_.depth_units_assumed);
-        if (!doubt.empty()) {
-            report_.warnings.push_back(doubt);
-        } else if (const auto depth_max_m = betterMaxDepth(report_.depth_summary)) {
-            report_.warnings.push_back(depthMaxText(report_.depth_summary, *depth_max_m));
+    void judgeCalibration() {
+        const std::string name = "the calibration '" + setup_.name + "'";
+        for (const std::string& doubt : doubtsOf(setup_.camera)) {
+            report_.warnings.push_back(name + ": " + doubt);
         }
     }
 
+    /** A lag looks like a shift where the camera turns steadily, and the other way round. */
+    void judgeRegistration() {
+        report_.misregistration = registration_.finding();
+        report_.depth_lag = lag_.finding();
+        if (report_.misregistration && report_.depth_lag) {
+            if (report_.misregistration->agreement > report_.depth_lag->agreement) {
+                report_.depth_lag.reset();
+            } else {
+                report_.misregistration.reset();
+            }
+        }
+        if (report_.misregistration) {
+            report_.warnings.push_back(registrationText(*report_.misregistration, setup_.camera.fx,
+                                                        options_.depth_camera.has_value()));
+        } else if (report_.depth_lag) {
+            report_.warnings.push_back(lagText(*report_.depth_lag, options_.depth_offset_s));
+        }
+    }
+
+    void judgeDepthUnit() {
+        report_.depth_summary = summarize(depth_histogram_, setup_.depthUnitInMetres());
+        const double units = 1 / setup_.depthUnitInMetres();
+        const std::string doubt = doubtOfUnits(depth_histogram_, units, setup_.depth_units_assumed);
+        if (!doubt.empty()) report_.warnings.push_back(doubt);
+        if (setup_.depth_units_assumed && doubt.empty()) {
+            report_.notes.push_back("depth_units: nothing states it, " + shortest(units) +
+                                    " assumed");
+        }
+    }
+
+    /** Whether rgbd-slam's default maximum suits the recording; its own matter, no fault of it. */
+    void judgeMaxDepth() {
+        const auto depth_max_m = betterMaxDepth(report_.depth_summary);
+        if (!depth_max_m || isImplausible(report_.depth_summary)) return;
+        report_.warnings.push_back(depthMaxText(report_.depth_summary, *depth_max_m));
+    }
+
     const RgbdSequence& sequence_;
-    CameraSetup setup_;
     const ImportOptions& options_;
-    FrameSource source_;
-    RegistrationCheck registration_;
-    DepthHistogram depth_histogram_;
     std::size_t converted_ = 0;
     ImportReport report_;
     std::vector<FramePair> pairs_;
+    FrameSource source_;
+    const CameraSetup& setup_;
+    RegistrationCheck registration_;
+    LagCheck lag_;
+    DepthHistogram depth_histogram_;
     SensorEntries sensors_;
 };
 
@@ -262,16 +256,6 @@ std::string tallyText(const std::string& name, const std::string& other, const I
     if (!reasons.empty()) text += " (" + reasons + ")";
     return text + "; " + std::to_string(tally.backwards) + " stamps go back, " +
            std::to_string(tally.repeated) + " repeat\n";
-}
-
-std::string textOf(const Eigen::Vector2d& misalignment_px, bool is_registered) {
-    char text[200];
-    std::snprintf(text, sizeof text,
-                  "depth seems shifted against colour by %.0f px to the right and %.0f px down; %s",
-                  misalignment_px.x(), misalignment_px.y(),
-                  is_registered ? "check the cameras' calibrations and poses"
-                                : "register it with --register, see --help");
-    return text;
 }
 
 }  // namespace
@@ -303,10 +287,6 @@ ImportReport importSequence(const RgbdSequence& sequence, const CameraSetup& set
     Import import(sequence, setup, options);
     writeRawlog(rawlog_path, options.storage, [&](RawlogWriter& writer) { import.write(writer); });
     ImportReport report = import.report();
-    if (report.misalignment_px) {
-        report.warnings.push_back(
-            textOf(*report.misalignment_px, options.depth_camera.has_value()));
-    }
     for (const std::string& hint : sensorHints(sequence)) report.warnings.push_back(hint);
     for (const std::string& warning : report.warnings) sayWarning(warning);
     report.seconds =

@@ -28,8 +28,7 @@ using mrpt::obs::CObservation3DRangeScan;
 
 namespace {
 
-void checkSize(const RgbdImage& image, const CObservation3DRangeScan& first, std::size_t index) {
-    const Camera camera = toCamera(first.cameraParamsIntensity);
+void checkSize(const RgbdImage& image, const Camera& camera, std::size_t index) {
     if (image.depth.cols == camera.width && image.depth.rows == camera.height) return;
     throw Error("frame " + std::to_string(index) + " is " + std::to_string(image.depth.cols) + "x" +
                     std::to_string(image.depth.rows) + " pixels, its camera's calibration is for " +
@@ -178,7 +177,10 @@ class FrameStream::Implementation {
         ended_ = true;  // for good, should reading throw
         while (const auto observation = reader_.next()) {
             auto frame = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation);
-            if (!first_ && frame && isWanted(*frame)) first_ = frame;
+            if (!first_ && frame && isWanted(*frame)) {
+                first_ = frame;
+                camera_ = cameraOf(*frame);
+            }
             note(*observation);
             if (!frame) {
                 before_.push_back(observation);
@@ -231,7 +233,7 @@ class FrameStream::Implementation {
     void prepare(StreamedFrame& frame) {
         RgbdImage image;
         times_.measure("decode", [&] { image = toRgbdImage(frame.observation); });
-        checkSize(image, *first_, frame.index);
+        checkSize(image, camera_, frame.index);
         frame.prepared = prepare_(image);
         frame.prepared.reckoning = frame.reckoning;
     }
@@ -249,6 +251,7 @@ class FrameStream::Implementation {
     std::deque<StreamedFrame> pending_;
     std::exception_ptr damage_;  // behind the pending frames
     CObservation3DRangeScan::Ptr first_;
+    Camera camera_;
     std::size_t frames_read_ = 0;
 
     mutable std::mutex notes_access_;

@@ -99,6 +99,57 @@ TEST(CameraFile, sensorPoseIsInMetresAndDegrees) {
     EXPECT_LT((T * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(0.1, 1, 0.6)).norm(), 1e-12);
 }
 
+TEST(CameraFile, keysThatDifferInCaseAreOneAndRefusedTwice) {
+    EXPECT_THAT(complaintAbout(minimal + "Fx = 900\n"),
+                HasSubstr("'Fx' in line 7 repeats 'fx' of line 3"));
+    EXPECT_THAT(complaintAbout(minimal + "fx = 525\n"), HasSubstr("in line 7 repeats"));
+    EXPECT_EQ(readText("[other]\nfx = 3\n" + minimal + "; fx = 3\n# fx = 4\n").camera.fx, 525);
+}
+
+TEST(CameraFile, fourCoefficientsAreThoseWithoutK3) {
+    const std::array<double, 5> expected = {0.1, -0.2, 0.001, 0.002, 0};
+    EXPECT_EQ(readText(minimal + "dist = [0.1 -0.2 0.001 0.002]\n").camera.distortion, expected);
+}
+
+TEST(CameraFile, principalPointsOutsideTheImageAreRefused) {
+    const auto with = [](const std::string& size, const std::string& cx) {
+        return "[CAMERA_PARAMS]\nresolution = [" + size + "]\nfx = 525\nfy = 525\ncx = " + cx +
+               "\ncy = 119.5\n";
+    };
+    EXPECT_THAT(complaintAbout(with("320 240", "319.9")),
+                HasSubstr("outside the image of 320x240"));
+    EXPECT_THAT(complaintAbout(with("320 240", "-1")), HasSubstr("it should be near 159.5, 119.5"));
+    EXPECT_TRUE(doubtsOf(readText(with("320 240", "100")).camera).empty());
+    EXPECT_THAT(doubtsOf(readText(with("320 240", "50")).camera),
+                ::testing::ElementsAre(HasSubstr("far from the center of the image")));
+}
+
+TEST(CameraFile, fieldsOfViewThatNoUsualCameraHasAreDoubted) {
+    Camera camera{640, 480, 525, 525, 319.5, 239.5, {}};
+    EXPECT_TRUE(doubtsOf(camera).empty());
+    camera.fx = 3000;
+    EXPECT_THAT(doubtsOf(camera), ::testing::ElementsAre(HasSubstr("12 degrees")));
+    camera.fx = 52.5;
+    EXPECT_THAT(doubtsOf(camera), ::testing::ElementsAre(HasSubstr("161 degrees")));
+}
+
+TEST(CameraFile, calibrationsFitImagesOfAnExactFraction) {
+    const Camera camera{640, 480, 520, 521, 325.1, 249.7, {0.1, 0, 0, 0, 0}};
+    const auto half = resizedTo(camera, 320, 240);
+    ASSERT_TRUE(half);
+    EXPECT_EQ(half->fx, 260);
+    EXPECT_NEAR(half->cx, 162.3, 1e-9);
+    const Eigen::Vector3d point(0.3, -0.2, 1.5);
+    const Eigen::Vector2d full = camera.distort(camera.project(point));
+    const Eigen::Vector2d small = half->distort(half->project(point));
+    EXPECT_LT((small - ((full.array() + 0.5) / 2 - 0.5).matrix()).norm(), 1e-9);
+    EXPECT_TRUE(resizedTo(camera, 1280, 960));
+    EXPECT_TRUE(resizedTo(camera, 640, 480));
+    for (const auto& [width, height] : {std::pair(640, 360), {424, 240}, {32, 24}, {0, 0}}) {
+        EXPECT_FALSE(resizedTo(camera, width, height));
+    }
+}
+
 TEST(CameraFile, mistakesAreNamed) {
     EXPECT_THAT(complaintAbout("[OTHER]\nfx = 1\n"), HasSubstr("no section [CAMERA_PARAMS]"));
     EXPECT_THAT(complaintAbout(minimal + "focal = 3\n"), HasSubstr("unknown key 'focal'"));

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <opencv2/imgproc.hpp>
+
+#include "rgbd_graphslam/dataset/lag_check.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -35,42 +38,104 @@ Frame boxes(int seed, cv::Point depth_shift) {
     return frame;
 }
 
-std::optional<Eigen::Vector2d> misalignmentOf(int frames, cv::Point shift) {
+/** Depth as a camera of `scale` times the focal length would see it. */
+cv::Mat1w scaled(const cv::Mat1w& depth, double scale) {
+    const cv::Mat1d motion = (cv::Mat1d(2, 3) << scale, 0, 0.5 * (1 - scale) * width, 0, scale,
+                              0.5 * (1 - scale) * height);
+    cv::Mat1w result;
+    cv::warpAffine(depth, result, motion, depth.size(), cv::INTER_NEAREST);
+    return result;
+}
+
+std::optional<Misregistration> findingOf(int frames, double scale, cv::Point shift) {
     RegistrationCheck check;
     for (int i = 0; i < frames; ++i) {
         const Frame frame = boxes(i, shift);
-        check.add(frame.color, frame.depth);
+        check.add(frame.color, scaled(frame.depth, scale));
     }
-    return check.misalignment();
+    return check.finding();
 }
 
 TEST(RegistrationCheck, registeredDepthIsNoCauseForAlarm) {
-    EXPECT_FALSE(misalignmentOf(6, {0, 0}));
-    EXPECT_FALSE(misalignmentOf(6, {2, -2})) << "cameras' stamps and calibrations do as much";
+    EXPECT_FALSE(findingOf(8, 1, {0, 0}));
+    EXPECT_FALSE(findingOf(8, 1, {2, -2})) << "cameras' stamps and calibrations do as much";
+    EXPECT_FALSE(findingOf(8, 1.015, {0, 0}));
 }
 
 TEST(RegistrationCheck, aShiftIsFoundWithItsDirection) {
-    for (const cv::Point shift : {cv::Point(10, 0), cv::Point(-12, 3), cv::Point(0, 15)}) {
-        const auto found = misalignmentOf(6, shift);
+    for (const cv::Point shift :
+         {cv::Point(10, 0), cv::Point(-12, 3), cv::Point(0, 15), cv::Point(40, 0)}) {
+        const auto found = findingOf(8, 1, shift);
         ASSERT_TRUE(found) << shift;
-        EXPECT_NEAR(found->x(), shift.x, 2);
-        EXPECT_NEAR(found->y(), shift.y, 2);
+        EXPECT_FALSE(found->isScaled()) << found->scale;
+        EXPECT_NEAR(found->shift_px.x(), shift.x, 2);
+        EXPECT_NEAR(found->shift_px.y(), shift.y, 2);
+        EXPECT_EQ(toText(*found, 300).find("focal"), std::string::npos);
     }
 }
 
+TEST(RegistrationCheck, aScaleIsFound) {
+    for (const double scale : {0.637, 0.8, 0.95, 1.05, 1.3, 1.57}) {
+        const auto found = findingOf(8, scale, {0, 0});
+        ASSERT_TRUE(found) << scale;
+        EXPECT_NEAR(found->scale / scale, 1, 0.03);
+        EXPECT_LT(found->shift_px.norm(), 5);
+    }
+    EXPECT_EQ(toText(*findingOf(8, 0.637, {3, 1}), 603).rfind("depth seems to be 0.6", 0), 0u);
+}
+
 TEST(RegistrationCheck, fewOrFlatFramesTellNothing) {
-    EXPECT_FALSE(misalignmentOf(2, {10, 0}));
+    EXPECT_FALSE(findingOf(2, 1, {10, 0}));
     RegistrationCheck check;
     for (int i = 0; i < 10; ++i) {
         check.add(boxes(i, {}).color, cv::Mat1w(height, width, std::uint16_t{9000}));
     }
-    EXPECT_FALSE(check.misalignment());
+    EXPECT_FALSE(check.finding());
 }
 
 TEST(RegistrationCheck, depthOfOtherScenesTellsNothing) {
-    RegistrationCheck check;
-    for (int i = 0; i < 10; ++i) check.add(boxes(i, {}).color, boxes(i + 100, {}).depth);
-    EXPECT_FALSE(check.misalignment());
+    for (int trial = 0; trial < 5; ++trial) {
+        RegistrationCheck check;
+        for (int i = 0; i < 10; ++i) {
+            check.add(boxes(i + 1000 * trial, {}).color, boxes(i + 1000 * trial + 100, {}).depth);
+        }
+        EXPECT_FALSE(check.finding());
+    }
+}
+
+/** A camera that turns to and fro before boxes, 30 frames a second. */
+std::optional<DepthLag> lagOf(int frames, int late, double amplitude_px) {
+    const Frame scene = boxes(3, {});
+    const auto view = [&](const cv::Mat& image, int frame) {
+        const double angle = 0.09 * frame;
+        const cv::Mat1d motion = (cv::Mat1d(2, 3) << 1, 0, amplitude_px * std::sin(angle), 0, 1,
+                                  0.4 * amplitude_px * std::sin(1.7 * angle));
+        cv::Mat result;
+        cv::warpAffine(image, result, motion, image.size(), cv::INTER_NEAREST, cv::BORDER_REFLECT);
+        return result;
+    };
+    LagCheck check(frames);
+    for (int i = 0; i < frames; ++i) {
+        check.add(i / 30.0, view(scene.color, i), view(scene.depth, std::max(0, i - late)));
+    }
+    return check.finding();
+}
+
+TEST(LagCheck, lateAndEarlyDepthIsFound) {
+    for (const int late : {1, 2, 3, 4, 5, 10, 15}) {
+        const auto found = lagOf(120, late, 40);
+        ASSERT_TRUE(found) << late;
+        EXPECT_EQ(found->frames, late);
+        EXPECT_NEAR(found->seconds, late / 30.0, 1e-6);
+    }
+}
+
+TEST(LagCheck, depthInTimeAndCamerasAtRestAreNoCauseForAlarm) {
+    EXPECT_FALSE(lagOf(120, 0, 40));
+    EXPECT_FALSE(lagOf(120, 0, 4));
+    EXPECT_FALSE(lagOf(120, 5, 0)) << "nothing moves";
+    EXPECT_FALSE(lagOf(8, 0, 40));
+    EXPECT_FALSE(LagCheck(0).finding());
 }
 
 }  // namespace

@@ -14,17 +14,20 @@ inline constexpr const char* imu_label = "IMU";
 inline constexpr const char* odometry_label = "ODOMETRY";
 inline constexpr const char* ground_truth_label = "GROUND_TRUTH";
 
-/** The frame in our terms. Pixels are shared with the observation, which `owner` keeps alive;
- *  images stored outside the rawlog are loaded; the grey image is made here.
- *  \throws Error naming the stamp when colour or depth is absent, unreadable or of different
- *          size, when ranges are not depths along the optical axis, or as cameraOf() */
+/** The frame in our terms. Depth that another camera took, by the observation's two calibrations
+ * and their relative pose, is registered to colour. Other pixels are shared with the observation,
+ * which `owner` keeps alive; images stored outside the rawlog are loaded; the grey image is made
+ * here. \throws Error naming the stamp when colour or depth is absent or unreadable, of different
+ * size without two calibrations that say why, when the two calibrations cannot be right, when
+ *          ranges are not depths along the optical axis, or as cameraOf() */
 RgbdImage toRgbdImage(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
 
 /** The same without a grey image that is made: there is one only where the camera is grey, and then
  *  no colour image. */
 RgbdImage colorAndDepth(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
 
-/** Calibration of the colour camera.
+/** Calibration of the colour camera. One made for images an exact number of times as large or small
+ *  as the observation's is resized, which is said once.
  *  \throws Error naming the stamp when it is none, or of a lens whose distortion cannot be undone
  */
 Camera cameraOf(const mrpt::obs::CObservation3DRangeScan& observation);
