@@ -87,7 +87,8 @@ void FrameSource::fitSizes(const std::vector<FramePair>& pairs) {
     depth_size_ = sizeOf(depth_setup_ ? depth_setup_->camera : setup_.camera);
     for (std::size_t i = 0; i < std::min(pairs.size(), most_damaged); ++i) {
         const std::string color_file = pathOf(pairs[i].color), depth_file = pathOf(pairs[i].depth);
-        const DecodedImage color = readColorImage(color_file), depth = readDepthImage(depth_file, depthUnits());
+        const DecodedImage color = readColorImage(color_file),
+                           depth = readDepthImage(depth_file, depthUnits());
         if (!color.damage.empty() || !depth.damage.empty()) continue;
         fitColor(color_file, color.pixels.size());
         fitDepth(depth_file, depth.pixels.size());
@@ -133,7 +134,8 @@ void FrameSource::findNoReading(const std::vector<FramePair>& pairs) {
 
 LoadedFrame FrameSource::load(const FramePair& pair) const {
     const std::string color_file = pathOf(pair.color), depth_file = pathOf(pair.depth);
-    DecodedImage color = readColorImage(color_file), depth = readDepthImage(depth_file, depthUnits());
+    DecodedImage color = readColorImage(color_file),
+                 depth = readDepthImage(depth_file, depthUnits());
     std::string damage = color.damage.empty() ? depth.damage : color.damage;
     if (damage.empty()) damage = dropUnconfident(sequence_, pair.depth.file, depth.pixels);
     if (!damage.empty()) return {color_file, {}, {}, damage};

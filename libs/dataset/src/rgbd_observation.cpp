@@ -198,6 +198,8 @@ cv::Mat registeredDepth(const CObservation3DRangeScan& observation, const cv::Ma
         cameras.color.width = color_size.width;
         cameras.color.height = color_size.height;
     }
+    const cv::Size stated(cameras.color.width, cameras.color.height);
+    if (stated != color_size) return depth;  // who uses it refuses such a calibration
     cameras.depth.width = depth.cols;
     cameras.depth.height = depth.rows;
     checkDepthCamera(observation, cameras);

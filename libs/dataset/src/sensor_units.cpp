@@ -11,11 +11,8 @@ constexpr double gravity = 9.80665, degree = M_PI / 180;
 }  // namespace
 
 const std::vector<SensorUnit>& accelerationUnits() {
-    static const std::vector<SensorUnit> units = {{"m/s2", 1},
-                                                  {"g", 1 / gravity},
-                                                  {"mg", 1000 / gravity},
-                                                  {"cm/s2", 100},
-                                                  {"mm/s2", 1000}};
+    static const std::vector<SensorUnit> units = {
+        {"m/s2", 1}, {"g", 1 / gravity}, {"mg", 1000 / gravity}, {"cm/s2", 100}, {"mm/s2", 1000}};
     return units;
 }
 

@@ -113,9 +113,9 @@ class Import {
         writeSensorsUntil(mrpt::Clock::time_point::max(), next_sensor, writer);
         report_.notes = sequence_.notes;
         if (converted_ > 0) {
-            report_.notes.push_back(std::to_string(converted_) +
-                                    " depth images in meters, converted to " +
-                                    shortest(std::round(source_.depthUnits())) + " units per meter");
+            report_.notes.push_back(
+                std::to_string(converted_) + " depth images in meters, converted to " +
+                shortest(std::round(source_.depthUnits())) + " units per meter");
         }
         report_.notes.insert(report_.notes.end(), source_.notes().begin(), source_.notes().end());
         judgeRegistration();

@@ -198,14 +198,15 @@ class Export {
 
     void takeCalibration(const CObservation3DRangeScan::Ptr& frame) {
         const cv::Size size = toRgbdImage(frame).depth.size();
-        setup_.camera = fittedTo(size, cameraOf(*frame), report_.notes);
+        setup_.camera = fittedTo(size, toCamera(frame->cameraParamsIntensity), report_.notes);
         setup_.T_base_sensor = toSE3(frame->sensorPose);
         setup_.depth_units = unitsAMetre(frame->rangeUnits);
         T_base_cam_ = cameraOnRobot(*frame);
         if (!frame->doDepthAndIntensityCamerasCoincide()) {
+            setup_.T_base_sensor = T_base_cam_ * T_optical_from_mrpt;
             report_.notes.push_back(
-                "the rawlog gives the depth camera a calibration of its own: depth is exported as "
-                "it is, not registered to colour");
+                "the rawlog gives the depth camera a calibration of its own: depth is exported "
+                "registered to colour");
         }
     }
 
