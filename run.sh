@@ -16,9 +16,11 @@ build_packages=(
 test_packages=(
     ccache pkg-config mrpt-apps octomap-tools
     libgtest-dev libgmock-dev libbenchmark-dev python3 parallel
-    python3-rosbag python3-sensor-msgs python3-nav-msgs python3-tf2-msgs nodejs npm zstd lz4 xvfb xauth
+    python3-rosbag python3-sensor-msgs python3-nav-msgs python3-tf2-msgs zstd lz4 xvfb xauth
     colmap assimp-utils
 )
+
+command -v npm >/dev/null || test_packages+=(nodejs npm)
 
 usage() {
     cat <<'END'
