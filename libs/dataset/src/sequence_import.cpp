@@ -57,12 +57,11 @@ std::string doubtOfUnits(const DepthHistogram& depth, double units, bool assumed
 }
 
 std::string depthMaxText(const DepthSummary& summary, double depth_max_m) {
-    char text[240];
-    std::snprintf(
-        text, sizeof text,
-        "%.0f %% of the depth readings are beyond %.0f m, where rgbd-slam ignores them by "
-        "default; run it with --set FeatureOptions.depth_max_m=%.3g",
-        100 * summary.share_beyond, usual_max_depth_m, depth_max_m);
+    char text[200];
+    std::snprintf(text, sizeof text,
+                  "%.0f %% of the depth readings are beyond %.0f m; rgbd-slam uses them unless its "
+                  "FeatureOptions.depth_max_m is set below %.3g",
+                  100 * summary.share_beyond, usual_max_depth_m, depth_max_m);
     return text;
 }
 
@@ -124,7 +123,7 @@ class Import {
             throw Error(report_.warnings.front(),
                         "or leave out --strict to import it all the same");
         }
-        judgeMaxDepth();
+        noteFarDepth();
     }
 
     const ImportReport& report() const { return report_; }
@@ -222,11 +221,11 @@ class Import {
         }
     }
 
-    /** Whether rgbd-slam's default maximum suits the recording; its own matter, no fault of it. */
-    void judgeMaxDepth() {
+    /** Far depth is no fault of the recording, and rgbd-slam adapts to it. */
+    void noteFarDepth() {
         const auto depth_max_m = betterMaxDepth(report_.depth_summary);
         if (!depth_max_m || isImplausible(report_.depth_summary)) return;
-        report_.warnings.push_back(depthMaxText(report_.depth_summary, *depth_max_m));
+        report_.notes.push_back(depthMaxText(report_.depth_summary, *depth_max_m));
     }
 
     const RgbdSequence& sequence_;

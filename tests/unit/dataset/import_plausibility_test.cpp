@@ -204,7 +204,7 @@ TEST_F(ImportPlausibility, millimetersWithoutDepthUnitsAreFound) {
 TEST_F(ImportPlausibility, depthThatRgbdSlamWouldIgnoreIsTold) {
     camera(64, 48, "depth_units = 256\n");
     for (int i = 0; i < 3; ++i) add(noise(64, 48, i), readings(64, 48, i, 1024, 6144));
-    EXPECT_THAT(import().warnings, Contains(HasSubstr("depth_max_m=2")));
+    EXPECT_THAT(import().notes, Contains(HasSubstr("depth_max_m is set below 2")));
 }
 
 TEST_F(ImportPlausibility, depthOfTwoCamerasInARawlogIsRegistered) {
