@@ -70,7 +70,7 @@ void OrbitCamera::frame(const std::vector<Eigen::Vector3d>& points, const Eigen:
     for (const Eigen::Vector3d& p : points) box.extend(p);
     if (box.isEmpty()) return;
     frame(box, size_px, share);
-    constexpr double margin = 1.06;
+    constexpr double margin = 1.14;
     const Eigen::Array2d room_px = share.array() * size_px.cast<double>().array();
     for (int i = 0; i < 6; ++i) {  // perspective changes with the distance
         Eigen::AlignedBox2d seen;

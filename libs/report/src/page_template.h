@@ -53,6 +53,8 @@ table { border-collapse: collapse; width: 100%; font-size: 13px;
 th, td { text-align: right; padding: 3px 0 3px 16px; white-space: nowrap; }
 th { color: var(--soft); font-weight: normal; border-bottom: 1px solid var(--line); }
 th:first-child, td:first-child { text-align: left; padding-left: 0; }
+table.quality th, table.quality td { white-space: normal; text-align: left;
+                                     vertical-align: top; }
 tr.false td { color: var(--false); font-weight: 600; }
 td.bar { width: 34%; }
 td.bar i { display: block; height: 11px; background: var(--bar); border-radius: 2px; min-width: 1px; }

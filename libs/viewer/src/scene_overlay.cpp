@@ -67,7 +67,9 @@ void drawHeights(NVGcontext* context, const SceneOverlay& overlay) {
 }  // namespace
 
 void drawSceneOverlay(NVGcontext* context, const SceneOverlay& overlay) {
+    const cv::Rect2d bar(overlay.area.x, overlay.area.br().y - 60, most_bar_px + 40, 60);
     for (const SceneLabel& label : overlay.labels) {
+        if (bar.contains({label.pixel.x(), label.pixel.y()})) continue;
         write(context, static_cast<float>(label.pixel.x()), static_cast<float>(label.pixel.y()),
               NVG_ALIGN_CENTER | NVG_ALIGN_MIDDLE, label.text);
     }

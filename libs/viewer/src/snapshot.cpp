@@ -125,6 +125,16 @@ mrpt::opengl::CSetOfTriangles::Ptr trianglesBelow(const PlyModel& mesh, float ce
     return object;
 }
 
+/** Opposite corners of all that is in a scene of other programs. */
+std::vector<Eigen::Vector3d> endsOf(const COpenGLScene& scene) {
+    try {
+        const auto whole = scene.getBoundingBox();
+        return {vectorOf(whole.min), vectorOf(whole.max)};
+    } catch (const std::exception&) {  // MRPT has no box of nothing
+        return {{-1, -1, 0}, {1, 1, 1}};
+    }
+}
+
 Framing frameOf(const COpenGLScene& scene, const CPointCloudColoured& points) {
     PointMap map;
     map.reserve(points.size());
@@ -134,8 +144,7 @@ Framing frameOf(const COpenGLScene& scene, const CPointCloudColoured& points) {
     }
     Framing framing = framingOf(map, viewsOf(scene), pathOf(scene));
     if (!framing.box.isEmpty()) return framing;
-    const auto whole = scene.getBoundingBox();
-    framing.points = {vectorOf(whole.min), vectorOf(whole.max)};
+    framing.points = endsOf(scene);
     return framing;
 }
 
