@@ -226,7 +226,8 @@ int importBag(const Arguments& args) {
     if (!args.bag.no_camera) {
         return importRead(args, unpacked.sequence(), SequenceLayout::Tum);
     }
-    const SensorReport report = importSensors(unpacked.sequence(), args.rawlog);
+    const SensorReport report =
+        importSensors(inOurUnits(unpacked.sequence(), sensorUnits(args)), args.rawlog);
     std::fputs(toText(report).c_str(), stdout);
     return 0;
 }

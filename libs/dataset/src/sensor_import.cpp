@@ -2,9 +2,11 @@
 
 #include <cstdio>
 
+#include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
+#include "rgbd_graphslam/dataset/sensor_hints.h"
 #include "sensor_entries.h"
 
 namespace rgbd_graphslam {
@@ -29,6 +31,7 @@ SensorReport importSensors(const RgbdSequence& sequence, const std::string& rawl
     writeRawlog(rawlog_path, RawlogStorage::Embedded, [&](RawlogWriter& writer) {
         for (const auto& entry : entries) writer.write(*entry);
     });
+    for (const std::string& hint : sensorHints(sequence)) sayWarning(hint);
     const double duration_s =
         toSeconds(entries.back()->timestamp) - toSeconds(entries.front()->timestamp);
     return {counts.imu, counts.odometry, counts.others, duration_s, sequence.notes};
