@@ -26,18 +26,41 @@ Eigen::Vector3d meanCameraTop(const Trajectory& poses) {
 /** How far a camera that is held upright may lean. */
 constexpr double camera_error = M_PI / 4;
 
+/** How many surfaces face a direction to within 14 degrees. */
+std::size_t facing(const std::vector<SurfacePatch>& patches, const Eigen::Vector3d& direction) {
+    constexpr double near = 0.97;
+    return static_cast<std::size_t>(std::count_if(
+        patches.begin(), patches.end(),
+        [&](const SurfacePatch& patch) { return patch.normal.dot(direction) > near; }));
+}
+
 /** Whether level surfaces face up much more than down: floors and tables are seen more than
  *  ceilings. */
 bool seenFromAbove(const std::vector<SurfacePatch>& patches, const Eigen::Vector3d& up) {
     constexpr std::size_t fewest = 200;
-    constexpr double level_cos = 0.97, times = 3;  // 14 degrees
-    std::size_t above = 0, below = 0;
-    for (const SurfacePatch& patch : patches) {
-        const double cosine = patch.normal.dot(up);
-        above += cosine > level_cos;
-        below += cosine < -level_cos;
+    const std::size_t above = facing(patches, up), below = facing(patches, -up);
+    return above >= fewest && above > 3 * below;
+}
+
+/** A camera that lies on its side by an accelerometer whose axes the motion does not show, while
+ *  level surfaces say that it is upright. Walls may look level to a camera that does lie.
+ *  \param verdict Undecided, or left alone */
+void doubtLying(const std::vector<SurfacePatch>& patches, const Eigen::Vector3d& up,
+                const Eigen::Vector3d& camera_top, const std::string& label,
+                SensorVerdict& verdict) {
+    const double leaning = std::cos(camera_error);
+    if (verdict.fault != SensorFault::Undecided || up.dot(camera_top) > leaning) return;
+    const auto level = upFromFloor(patches, camera_top, camera_error);
+    if (!level || level->dot(up) > leaning) return;
+    const std::size_t by_camera = facing(patches, *level), by_sensor = facing(patches, up);
+    if (by_camera > 2 * by_sensor) {
+        verdict.fault = SensorFault::Unusable;
+        verdict.finding = "by it the camera lies on its side, by floor and tables it is upright";
+    } else if (by_sensor < 2 * by_camera) {
+        sayWarning("accelerometer '" + label +
+                   "': by it the camera lies on its side, which the motion neither shows nor rules "
+                   "out; if it did not, correct imu_pose in camera.ini");
     }
-    return above >= fewest && static_cast<double>(above) > times * static_cast<double>(below);
 }
 
 /** Distance between the keyframes kept of a run with so many. */
@@ -154,6 +177,8 @@ std::optional<Eigen::Vector3d> LevelSurvey::upByAccelerometer(
         verdict.axes = -Eigen::Matrix3d::Identity();
         verdict.finding = "by it the camera is upside down, and so are floor and tables: negated?";
     }
+    if (up && !upside_down)
+        doubtLying(patches, *up, meanCameraTop(poses), *accelerometer_, verdict);
     if (verdict.wrong()) {
         leaveOut(verdict, T_base_cam);
         return std::nullopt;

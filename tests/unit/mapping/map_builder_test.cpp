@@ -138,6 +138,16 @@ TEST_F(MapBuilder, accelerometerThatHasTheFloorOverheadIsLeftOut) {
     EXPECT_NE(record.warnings()[0].find("--imu-accel-unit=-1"), std::string::npos);
 }
 
+TEST_F(MapBuilder, accelerometerByWhichTheCameraLiesOnItsSideIsDoubted) {
+    for (const double tilt : {M_PI / 2, -M_PI / 2}) {
+        writeWalk(true, tilt);
+        const WarningRecord record;
+        uprightFromWorld(inputs_, MapOptions());
+        ASSERT_EQ(record.warnings().size(), 1u);
+        EXPECT_NE(record.warnings()[0].find("lies on its side"), std::string::npos);
+    }
+}
+
 TEST_F(MapBuilder, withoutEitherTheFirstCameraIsLevel) {
     writeWalk(false);
     MapOptions options;
