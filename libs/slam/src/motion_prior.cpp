@@ -1,6 +1,7 @@
 #include "motion_prior.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "rgbd_graphslam/slam/map_encoding.h"
 #include "rgbd_graphslam/slam/weak_tracker.h"
@@ -34,18 +35,33 @@ constexpr double forgetting = 0.3;
 constexpr PoseSpread slack{0.03, 0.03};
 constexpr double slack_share = 0.3;
 
+/** Up to this median depth lengths are those of rooms. */
+constexpr double room_depth_m = 4;
+
 }  // namespace
 
-void MotionPrior::restart(const Frame& frame, const SE3& T_last_cam) {
-    const bool tracked = measured_ && spread_.m == located.m;
-    if (tracked) {
-        compareWheels(frame, T_last_cam);
+double sceneScale(const Frame& frame) {
+    std::vector<float> depths;
+    for (const Keypoint& k : frame.keypoints) {
+        if (k.depth_m > 0) depths.push_back(k.depth_m);
+    }
+    if (depths.empty()) return 1;
+    const auto middle = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2);
+    std::nth_element(depths.begin(), middle, depths.end());
+    return std::max(1.0, *middle / room_depth_m);
+}
+
+void MotionPrior::restart(const Frame& frame, const std::optional<SE3>& T_last_cam) {
+    if (located_ && T_last_cam) {
+        compareWheels(frame, *T_last_cam);
     } else {
         seen_ = rolled_ = SE3();
         compared_m_ = 0;
     }
-    spread_ = located;
-    measured_ = true;
+    scale_ = sceneScale(frame);
+    spread_ = {scale_ * located.m, located.rad};
+    measured_ = located_ = true;
+    velocity_known_ = T_last_cam.has_value();
     remember(frame);
 }
 
@@ -57,26 +73,30 @@ void MotionPrior::advance(const Frame& frame, const SE3& T_last_cam, Source sour
         spread_.m += (error + spread_.rad) * way_m;
         spread_.rad += error * turn_rad;
     } else if (source == Source::Images) {
-        spread_.m += image_step.m + (image_error + spread_.rad) * way_m;
+        spread_.m += scale_ * image_step.m + (image_error + spread_.rad) * way_m;
         spread_.rad += image_step.rad + image_error * turn_rad;
+    } else if (source != Source::None && !velocity_known_) {
+        spread_ = anywhere;
     } else if (source != Source::None && passed_s < longest_inertia_s) {
-        spread_.m += 0.5 * acceleration.m * passed_s * passed_s;
+        spread_.m += 0.5 * scale_ * acceleration.m * passed_s * passed_s;
         spread_.rad += 0.5 * acceleration.rad * passed_s * passed_s;
     } else {
         if (source == Source::None) measured_ = false;
-        spread_.m += unknown_speed.m * passed_s;
+        spread_.m += scale_ * unknown_speed.m * passed_s;
         spread_.rad += unknown_speed.rad * passed_s;
     }
+    located_ = false;
+    velocity_known_ |= source == Source::Images;
     remember(frame);
 }
 
 Agreement MotionPrior::judge(const SE3& T_predicted_cam) const {
     const PoseSpread off{T_predicted_cam.t.norm(), T_predicted_cam.angle()};
-    if (off.m > ruling_out.m + ruling_out_sigmas * spread_.m ||
+    if (off.m > scale_ * ruling_out.m + ruling_out_sigmas * spread_.m ||
         off.rad > ruling_out.rad + ruling_out_sigmas * spread_.rad) {
         return Agreement::Contradicted;
     }
-    const bool near = off.m <= confirming.m + confirming_sigmas * spread_.m &&
+    const bool near = off.m <= scale_ * confirming.m + confirming_sigmas * spread_.m &&
                       off.rad <= confirming.rad + confirming_sigmas * spread_.rad;
     return measured_ && near ? Agreement::Confirmed : Agreement::Possible;
 }
@@ -96,7 +116,7 @@ bool MotionPrior::rulesOut(const Frame& frame, const SE3& T_last_cam) const {
     const DeadReckoning& now = frame.reckoning;
     if (wheelsTell(frame)) {
         const SE3 by_wheels = *rolled(frame), difference = by_wheels.inverse() * T_last_cam;
-        return differs(difference.t.norm(), slack.m, by_wheels.t.norm()) ||
+        return differs(difference.t.norm(), scale_ * slack.m, by_wheels.t.norm()) ||
                differs(difference.angle(), slack.rad, by_wheels.angle());
     }
     if (!last_.R_gyroscope_cam || !now.R_gyroscope_cam) return false;
@@ -128,20 +148,22 @@ void MotionPrior::remember(const Frame& frame) {
 }
 
 void MotionPrior::save(ByteWriter& out) const {
-    for (const double number : {spread_.m, spread_.rad, last_stamp_s_, wheel_error_, compared_m_}) {
+    for (const double number :
+         {spread_.m, spread_.rad, last_stamp_s_, wheel_error_, compared_m_, scale_}) {
         out.put(number);
     }
-    putFlag(measured_, out);
+    for (const bool flag : {measured_, located_, velocity_known_}) putFlag(flag, out);
     put(last_, out);
     encodePose(seen_, out);
     encodePose(rolled_, out);
 }
 
 void MotionPrior::load(ByteReader& in) {
-    for (double* number : {&spread_.m, &spread_.rad, &last_stamp_s_, &wheel_error_, &compared_m_}) {
+    for (double* number :
+         {&spread_.m, &spread_.rad, &last_stamp_s_, &wheel_error_, &compared_m_, &scale_}) {
         *number = getFinite(in);
     }
-    measured_ = getFlag(in);
+    for (bool* flag : {&measured_, &located_, &velocity_known_}) *flag = getFlag(in);
     last_ = getReckoning(in);
     seen_ = decodePose(in);
     rolled_ = decodePose(in);

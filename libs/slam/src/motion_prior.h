@@ -1,5 +1,7 @@
 /** Where the camera can be, by everything but the map. */
 #pragma once
+#include <optional>
+
 #include "rgbd_graphslam/core/byte_stream.h"
 #include "rgbd_graphslam/features/frame.h"
 
@@ -9,6 +11,11 @@ namespace rgbd_graphslam {
 struct PoseSpread {
     double m = 0, rad = 0;
 };
+
+constexpr PoseSpread anywhere{1e3, 10};
+
+/** How much larger than a room a scene is, at least 1: cars see far, and move far. */
+double sceneScale(const Frame& frame);
 
 /** What the motion since the last located frame says about a pose that the map offers. */
 enum class Agreement {
@@ -26,8 +33,9 @@ enum class Agreement {
 class MotionPrior {
   public:
     /** The map locates a frame.
-     *  \param T_last_cam motion since the frame before */
-    void restart(const Frame& frame, const SE3& T_last_cam);
+     *  \param T_last_cam motion since the frame before; nothing where that is not known, as at a
+     *         start or when the camera is found again: it may be moving then */
+    void restart(const Frame& frame, const std::optional<SE3>& T_last_cam);
 
     /** What tells the motion since the last frame where no trusted wheels do. */
     enum class Source {
@@ -46,6 +54,8 @@ class MotionPrior {
     Agreement judge(const SE3& T_predicted_cam) const;
 
     const PoseSpread& spread() const { return spread_; }
+    /** Of the frame that the map located last, see sceneScale(). */
+    double scale() const { return scale_; }
     /** Whether every motion since the last located frame was measured. */
     bool measured() const { return measured_; }
 
@@ -64,8 +74,13 @@ class MotionPrior {
     void compareWheels(const Frame& frame, const SE3& T_last_cam);
     void remember(const Frame& frame);
 
-    PoseSpread spread_{1e3, 10};
+    PoseSpread spread_ = anywhere;
     bool measured_ = false;
+    /** Whether the map located the last frame. */
+    bool located_ = false;
+    /** Whether the last motion is known. */
+    bool velocity_known_ = false;
+    double scale_ = 1;
     DeadReckoning last_;
     double last_stamp_s_ = 0;
     /** Error of the wheels as a share of the way, as seen so far. */

@@ -25,7 +25,7 @@ Verdict judge(const LocatedFrame& located, const SupposedMotion& measured,
     }
     if (!fits(inertial, Agreement::Possible)) return Verdict::Rejected;
     const PoseSpread spread = weakestDirection(covarianceAgainstMap(located));
-    const bool open = spread.m > widest.m || spread.rad > widest.rad;
+    const bool open = spread.m > inertial.prior.scale() * widest.m || spread.rad > widest.rad;
     return open ? Verdict::Uncertain : Verdict::Believed;
 }
 

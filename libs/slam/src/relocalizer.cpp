@@ -64,7 +64,8 @@ std::vector<int> Relocalizer::keyframesAround(const Prediction& predicted) const
     for (const Keyframe& keyframe : map_.keyframes()) {
         if (keyframe.culled || keyframe.part != predicted.part) continue;
         const Distance apart = between(keyframe.T_cam_world, predicted.T_cam_world);
-        if (apart.m > widest_view_m || apart.rad > widest_view_rad) continue;
+        if (apart.m > predicted.prior.scale() * widest_view_m || apart.rad > widest_view_rad)
+            continue;
         near.emplace_back(apart.m + apart.rad, keyframe.id);
     }
     std::sort(near.begin(), near.end());
@@ -130,8 +131,9 @@ const Relocalizer::Candidate* Relocalizer::likeliest(
     if (!best || best->agreement == Agreement::Confirmed) return best;
     for (const Candidate& other : candidates) {
         const Distance apart = between(best->located.T_cam_world, other.located.T_cam_world);
-        const bool elsewhere =
-            other.part != best->part || apart.m > one_place_m || apart.rad > one_place_rad;
+        const bool elsewhere = other.part != best->part ||
+                               apart.m > sceneScale(best->frame) * one_place_m ||
+                               apart.rad > one_place_rad;
         if (elsewhere && other.located.inliers > rival_share * best->located.inliers) {
             return nullptr;
         }
@@ -153,7 +155,7 @@ bool Relocalizer::believes(const Candidate& candidate) {
         const Distance moved = between(located.T_cam_world, before);
         const double passed_s = stamp_s - supposed_->stamp_s;
         goes_on = map_.keyframe(supposed_->keyframe).part == candidate.part &&
-                  moved.m < slack_m + fastest_m_s * passed_s &&
+                  moved.m < sceneScale(candidate.frame) * (slack_m + fastest_m_s * passed_s) &&
                   moved.rad < slack_rad + fastest_rad_s * passed_s;
     }
     const int keyframe = map_.observers(located.landmarks).front().keyframe;

@@ -142,7 +142,8 @@ void VisualSlam::Implementation::keep(Frame frame, LocatedFrame located, KeptFra
     const SE3 T_last_cam = placed ? records.lastPose(map) * located.T_cam_world.inverse() : SE3();
     const bool believed = record.origin != FrameOrigin::Uncertain;
     if (believed) {
-        weak_motion.restart(frame, T_last_cam);
+        const bool goes_on = placed && record.origin == FrameOrigin::Tracked;
+        weak_motion.restart(frame, goes_on ? std::optional<SE3>(T_last_cam) : std::nullopt);
     } else {
         weak_motion.goOn(frame, T_last_cam);
     }
@@ -217,7 +218,7 @@ void VisualSlam::Implementation::beginAnew(Frame frame, KeptFrame& record) {
         static_cast<int>(std::count_if(located.landmarks.begin(), located.landmarks.end(),
                                        [](int l) { return l != no_landmark; }));
     placed = true;
-    weak_motion.restart(frame, SE3());
+    weak_motion.restart(frame, std::nullopt);
     tracker.setLast(std::move(frame), std::move(located), id, tied);
 }
 

@@ -20,8 +20,8 @@ constexpr float same_ratio = 0.85f;
 
 }  // namespace
 
-void WeakMotion::restart(const Frame& frame, const SE3& T_last_cam) {
-    weak_.restart(frame, T_last_cam);
+void WeakMotion::restart(const Frame& frame, const std::optional<SE3>& T_last_cam) {
+    weak_.restart(frame, T_last_cam.value_or(SE3()));
     prior_.restart(frame, T_last_cam);
     anchor_.reset();
     before_.reset();

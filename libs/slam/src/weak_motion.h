@@ -19,8 +19,9 @@ class WeakMotion {
         : options_(options), tracker_(tracker) {}
 
     /** The map is seen, or begins, at a frame.
-     *  \param T_last_cam motion since the frame before, as a first guess for the next one */
-    void restart(const Frame& frame, const SE3& T_last_cam);
+     *  \param T_last_cam motion since the frame before, as a first guess for the next one; nothing
+     *         where the camera is found again or begins, perhaps moving */
+    void restart(const Frame& frame, const std::optional<SE3>& T_last_cam);
 
     /** The likeliest T_last_cam before the frame is looked at. */
     SE3 guess(const Frame& frame) const { return weak_.guess(frame); }

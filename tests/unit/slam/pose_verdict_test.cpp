@@ -51,6 +51,27 @@ TEST(PoseVerdict, noHandMovesACameraHalfAMeterInAFrame) {
     EXPECT_EQ(judge(locatedBy(400), off(0, 1), prior), Verdict::Rejected);
 }
 
+/** A camera that begins, or is found again, may be moving: what it did before is not known. */
+TEST(PoseVerdict, aCameraMayStartInMotion) {
+    MotionPrior prior;
+    prior.restart(at(1), std::nullopt);
+    prior.advance(at(1.1), SE3(), MotionPrior::Source::InertiaAlone);
+    EXPECT_EQ(judge(locatedBy(40), off(1.1), prior), Verdict::Believed);
+}
+
+/** A car sees far, and moves as far in a frame as no hand does. */
+TEST(PoseVerdict, lengthsAreThoseOfTheScene) {
+    Frame street = at(1);
+    street.keypoints.resize(9);
+    for (Keypoint& k : street.keypoints) k.depth_m = 20;
+    EXPECT_EQ(sceneScale(street), 5);
+    MotionPrior prior;
+    prior.restart(street, SE3());
+    prior.advance(at(1.1), SE3(), MotionPrior::Source::InertiaAlone);
+    EXPECT_EQ(judge(locatedBy(400, 0.02), off(1.2), prior), Verdict::Believed);
+    EXPECT_EQ(judge(locatedBy(400, 0.02), off(12), prior), Verdict::Rejected);
+}
+
 TEST(PoseVerdict, fewLandmarksMustAgreeWithTheMotion) {
     const MotionPrior prior = aFrameLater();
     EXPECT_EQ(judge(locatedBy(40), off(0.16), prior), Verdict::Rejected);
