@@ -5,6 +5,7 @@
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/export/mcap_writer.h"
 #include "rgbd_graphslam/export/ros2_messages.h"
+#include "rgbd_graphslam/mapping/run_folder.h"
 #include "ros_grid.h"
 #include "run_points.h"
 #include "run_trajectory.h"
@@ -38,6 +39,7 @@ class Ros2BagExporter : public Exporter {
             fill(bag, content);
             return bag.close();
         });
+        if (content.points.empty()) return poseCount(content.trajectory);
         return poseCount(content.trajectory) + ", " + std::to_string(content.points.size()) +
                " points, grid of " + std::to_string(content.grid.cells.cols) + " x " +
                std::to_string(content.grid.cells.rows) + " cells";
@@ -54,14 +56,16 @@ class Ros2BagExporter : public Exporter {
     static Content read(const std::string& run_folder) {
         Content content;
         content.trajectory = readRunTrajectory(run_folder);
-        const fs::path folder(run_folder);
+        const auto localized = readLocalisedRun(run_folder);
+        const std::string maps = localized ? localized->map_folder : run_folder;
+        const fs::path folder(maps);
         if (fs::exists(folder / "points.ply") && fs::exists(folder / "grid.yaml")) {
-            content.points = readRunPoints(run_folder, most_points);
+            content.points = readRunPoints(maps, most_points);
             content.grid = readRosGrid((folder / "grid").string());
         } else {
-            sayWarning("'" + run_folder +
+            sayWarning("'" + maps +
                        "' has no maps, so the bag has poses only; make the maps with: rgbd-map " +
-                       run_folder);
+                       maps);
         }
         return content;
     }
@@ -70,12 +74,14 @@ class Ros2BagExporter : public Exporter {
         const auto tf = addTopic(bag, "/tf", "tf2_msgs/msg/TFMessage");
         const auto pose_topic = addTopic(bag, "/pose", "geometry_msgs/msg/PoseStamped");
         const auto path = addTopic(bag, "/path", "nav_msgs/msg/Path");
-        const auto points = addTopic(bag, "/points", "sensor_msgs/msg/PointCloud2");
-        const auto grid = addTopic(bag, "/map", "nav_msgs/msg/OccupancyGrid");
         const double start_s = content.trajectory.front().stamp_s;
         const auto start = static_cast<std::uint64_t>(rosNanoseconds(start_s));
-        bag.write(path, start, pathMessage(content.trajectory, map_frame));
-        if (!content.points.empty()) {
+        if (content.points.empty()) {
+            bag.write(path, start, pathMessage(content.trajectory, map_frame));
+        } else {
+            const auto points = addTopic(bag, "/points", "sensor_msgs/msg/PointCloud2");
+            const auto grid = addTopic(bag, "/map", "nav_msgs/msg/OccupancyGrid");
+            bag.write(path, start, pathMessage(content.trajectory, map_frame));
             bag.write(points, start, pointCloudMessage(content.points, start_s, map_frame));
             bag.write(grid, start, gridMessage(content.grid, start_s, map_frame));
         }

@@ -4,6 +4,7 @@
 
 #include "../../support/problem_of.h"
 #include "../../support/tum_folder.h"
+#include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/export/exporter.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 
@@ -102,6 +103,25 @@ TEST_F(ExportRun, hasMetricMapsMadeBySm2mm) {
     fs::remove(folder_ / "bin/sm2mm");
     setenv("PATH", (folder_ / "bin").c_str(), 1);
     EXPECT_THAT(problemOf([&] { write("mm", output); }), HasSubstr("mp2p_icp (not part of Debian"));
+}
+
+TEST_F(ExportRun, writesABagOfPosesWhereThereAreNoMaps) {
+    const WarningRecord record;
+    EXPECT_EQ(write("ros2")[0].summary, "2 poses");
+    ASSERT_EQ(record.warnings().size(), 1u);
+    EXPECT_THAT(record.warnings()[0], HasSubstr("with: rgbd-map " + folder_ / "run"));
+    const std::string bag = readText(folder_ / "run/export/run.mcap");
+    EXPECT_THAT(bag, HasSubstr("/path"));
+    EXPECT_EQ(bag.find("/points"), std::string::npos);
+}
+
+TEST_F(ExportRun, takesTheMapThatARunWasLocalizedIn) {
+    folder_.write("map/keyframes.txt", toTumText(poses_));
+    folder_.write("run/summary.json", "{\"map\": {\"folder\": \"../map\", \"use\": \"localise\"}}");
+    const WarningRecord record;
+    EXPECT_EQ(write("ros2")[0].summary, "2 poses");
+    ASSERT_EQ(record.warnings().size(), 1u);
+    EXPECT_THAT(record.warnings()[0], HasSubstr("run/../map' has no maps"));
 }
 
 TEST_F(ExportRun, namesWhatIsMissingAndHowToGetIt) {
