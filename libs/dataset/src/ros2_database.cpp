@@ -40,9 +40,10 @@ Ros2Database::Ros2Database(const std::string& path)
 }
 
 void Ros2Database::refuse() const {
-    throw Error(
-        "'" + path_ + "' is damaged or no ROS 2 bag (" + sqlite3_errmsg(database_.get()) + ")",
-        "copy it again");
+    const int status = sqlite3_errcode(database_.get());
+    const bool failed = status != SQLITE_OK && status != SQLITE_ROW && status != SQLITE_DONE;
+    const std::string why = failed ? sqlite3_errmsg(database_.get()) : "it lacks a table";
+    throw Error("'" + path_ + "' is damaged or no ROS 2 bag (" + why + ")", "copy it again");
 }
 
 Ros2Database::Statement Ros2Database::prepare(const char* sql) const {
@@ -61,6 +62,12 @@ bool Ros2Database::step(const Statement& statement) const {
 }
 
 void Ros2Database::readTopics() {
+    // A view could be of any length, whatever the file's.
+    const auto tables = prepare(
+        "SELECT count(*) FROM sqlite_master WHERE type = 'table' AND name IN ('topics', "
+        "'messages')");
+    constexpr int expected = 2;
+    if (!step(tables) || sqlite3_column_int(tables.get(), 0) != expected) refuse();
     const auto topics = prepare("SELECT id, name, type, serialization_format FROM topics");
     while (step(topics)) {
         topics_[sqlite3_column_int64(topics.get(), 0)] = {textOf(topics.get(), 1),

@@ -462,6 +462,15 @@ TEST_F(Bag, damageToRos2FilesIsSaid) {
     EXPECT_THAT(complaint(folder_ / "a.mcap"), HasSubstr("is no MCAP file"));
     folder_.write("a.db3", "no bag");
     EXPECT_THAT(complaint(folder_ / "a.db3"), HasSubstr("is damaged or no ROS 2 bag"));
+    // A view may go on for ever.
+    const std::string views =
+        "CREATE TABLE topics(id, name, type, serialization_format);"
+        "CREATE VIEW messages AS WITH RECURSIVE n(id) AS (SELECT 1 UNION ALL "
+        "SELECT id + 1 FROM n) SELECT id, 1, 1, 1 FROM n;";
+    const std::string make = "import sqlite3; sqlite3.connect('" + folder_ / "v.db3" +
+                             "').executescript('" + views + "')";
+    ASSERT_EQ(std::system(("/usr/bin/python3 -c \"" + make + "\"").c_str()), 0);
+    EXPECT_THAT(complaint(folder_ / "v.db3"), HasSubstr("it lacks a table"));
     for (const char* compression : {"none", "zstd", "lz4"}) {
         lines_.recordRos2(folder_ / "a.mcap", compression);
         std::string bytes = readText(folder_ / "a.mcap");
