@@ -17,11 +17,15 @@ std::string framesRow(const RunRecord& run) {
         return 100. * static_cast<double>(run.count(state)) /
                static_cast<double>(run.frames.size());
     };
-    return row("frames",
-               formatted("%.1f %% tracked, %.1f %% recovered, %.1f %% weak, %.1f %% lost",
-                         percent(FrameState::Tracked), percent(FrameState::Recovered),
-                         percent(FrameState::Weak), percent(FrameState::Lost)),
-               "by landmarks; found again after a loss; by motion only; not at all");
+    return row(
+        "frames",
+        formatted("%.1f %% tracked, %.1f %% recovered, %.1f %% uncertain, %.1f %% weak, "
+                  "%.1f %% lost",
+                  percent(FrameState::Tracked), percent(FrameState::Recovered),
+                  percent(FrameState::Uncertain), percent(FrameState::Weak),
+                  percent(FrameState::Lost)),
+        "by landmarks; relocalized after a loss; by too few landmarks to build on; by motion "
+        "only; not at all");
 }
 
 std::string driftRow(const QualityRecord& quality) {
