@@ -179,7 +179,7 @@ TEST_F(FaultResume, aRunThatEndsOrBeginsLeavesNoCheckpoint) {
     signalAtCheckpoint("KILL", arguments("out"));
     EXPECT_EQ(runProgram("rgbd-slam", arguments("out")).exit_code, 0);
     EXPECT_FALSE(fs::exists(checkpoint()));
-    expectRefused(resume(), "nothing to go on from");
+    expectRefused(resume(), "nothing to resume");
 }
 
 TEST_F(FaultResume, refusesAnotherRawlogAndOtherSettings) {

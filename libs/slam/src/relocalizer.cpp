@@ -16,8 +16,8 @@ constexpr double widest_view_m = 4, widest_view_rad = 1.2;
 constexpr double one_place_m = 0.2, one_place_rad = 0.2;
 /** A second place with this share of the best one's inliers leaves it undecided. */
 constexpr double rival_share = 0.6;
-/** One frame is enough with so many times the inliers of a loop and this share of the landmarks
- *  that should be in sight: a place that merely looks alike shows fewer of them. */
+/** One frame is enough with so many times the inliers of a loop, and after a loss also this share
+ * of the landmarks that should be in sight: a place that merely looks alike shows fewer of them. */
 constexpr double convincing_inliers = 1.5, convincing_share = 0.25;
 /** Otherwise so many frames in a row must show the place, the camera moving no faster. */
 constexpr int convincing_frames = 3;
@@ -49,7 +49,7 @@ std::optional<LocatedFrame> Relocalizer::find(Frame& frame,
         }
     }
     const Candidate* best = likeliest(candidates);
-    if (!best || !believes(*best)) {
+    if (!best || !believes(*best, predicted.has_value())) {
         if (!best) forget();
         return std::nullopt;
     }
@@ -141,11 +141,12 @@ const Relocalizer::Candidate* Relocalizer::likeliest(
     return best;
 }
 
-bool Relocalizer::believes(const Candidate& candidate) {
+/** \param after_a_loss rather than at the start of a run, where there is no trajectory to bend */
+bool Relocalizer::believes(const Candidate& candidate, bool after_a_loss) {
     const LocatedFrame& located = candidate.located;
     if (candidate.agreement == Agreement::Confirmed) return true;
     if (located.inliers >= convincing_inliers * options_.loops.min_inliers &&
-        located.inliers >= convincing_share * located.expected) {
+        (!after_a_loss || located.inliers >= convincing_share * located.expected)) {
         return true;
     }
     const double stamp_s = candidate.frame.stamp_s;

@@ -63,7 +63,7 @@ class Relocalizer {
     Candidate judged(Frame frame, LocatedFrame located,
                      const std::optional<Prediction>& predicted) const;
     const Candidate* likeliest(const std::vector<Candidate>& candidates) const;
-    bool believes(const Candidate& candidate);
+    bool believes(const Candidate& candidate, bool after_a_loss);
 
     const SlamOptions& options_;
     const Camera& camera_;
