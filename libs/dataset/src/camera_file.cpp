@@ -76,7 +76,7 @@ class CameraFile {
         }
         checkLens(camera);
         const Camera own = toCamera(camera);
-        if (!own.contains({own.cx, own.cy})) refuse(doubtsOf(own).front());
+        if (!own.contains({own.cx, own.cy})) refusePrincipalPoint(own);
         if (!own.undoesDistortion()) refuse("dist: this distortion cannot be undone in the image");
         return own;
     }
@@ -101,6 +101,12 @@ class CameraFile {
   private:
     [[noreturn]] void refuse(const std::string& why) const {
         throw Error("camera file '" + path_ + "': " + why, "see ini/camera_fr1.ini for the form");
+    }
+
+    /** Images of a few pixels leave no room for doubts. */
+    [[noreturn]] void refusePrincipalPoint(const Camera& camera) const {
+        const auto doubts = doubtsOf(camera);
+        refuse(doubts.empty() ? "the principal point is outside the image" : doubts.front());
     }
 
     std::vector<double> numbersOf(const std::string& key) const {
