@@ -198,14 +198,16 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
     return row[b.size()];
 }
 
-/** A name is taken for a misspelt one when it differs in at most a third of its letters. */
+/** A name is taken for a misspelt one when it differs in at most a third of its letters, or in two,
+ *  as transposed ones do. */
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {
     if (known.empty()) return "remove it";
     const auto best =
         std::min_element(known.begin(), known.end(), [&](const auto& a, const auto& b) {
             return editDistance(word, a) < editDistance(word, b);
         });
-    if (3 * editDistance(word, *best) > std::max(word.size(), best->size())) {
+    const std::size_t longer = std::max(word.size(), best->size());
+    if (editDistance(word, *best) > std::max<std::size_t>(longer < 5 ? 1 : 2, longer / 3)) {
         return "remove it; rgbd-slam --print-config lists all keys";
     }
     return "remove it, or did you mean '" + *best + "'?";
