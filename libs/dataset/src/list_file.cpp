@@ -23,9 +23,9 @@ bool isDigit(char c) {
 /** Of a word with a comma: two digits around its only one, and no point. */
 bool isDecimalComma(const std::string& word) {
     const auto comma = word.find(',');
-    return comma > 0 && comma + 1 < word.size() && isDigit(word[comma - 1]) &&
-           isDigit(word[comma + 1]) && word.find(',', comma + 1) == std::string::npos &&
-           word.find('.') == std::string::npos;
+    return comma != std::string::npos && comma > 0 && comma + 1 < word.size() &&
+           isDigit(word[comma - 1]) && isDigit(word[comma + 1]) &&
+           word.find(',', comma + 1) == std::string::npos && word.find('.') == std::string::npos;
 }
 
 /** Of several words, the first one has a decimal comma, and so has each other with a comma. */
