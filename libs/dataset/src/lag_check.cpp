@@ -16,6 +16,9 @@ constexpr double longest_s = 0.75;
 /** Of the mean gain over no lag, in standard deviations of it; share of anchors that gain. */
 constexpr double least_significance = 4, least_share = 0.75;
 constexpr double least_agreement = 3;  // standard deviations a frame
+/** Share of the agreement that may be left without lag. Steady motion past things whose outlines
+ * have colour edges beside them gains, too, but less. */
+constexpr double most_left = 0.65;
 
 /** Small lags one by one, larger ones with gaps. */
 bool isTried(int lag) {
@@ -86,7 +89,8 @@ std::optional<DepthLag> LagCheck::finding() const {
         gain /= count;
         const double variance = std::max(1e-9, squares / count - gain * gain);
         const bool clear = gain / std::sqrt(variance / count) > least_significance &&
-                           gaining >= least_share * count && agreement > least_agreement * count;
+                           gaining >= least_share * count && agreement > least_agreement * count &&
+                           gain > (1 - most_left) * agreement / count;
         if (!clear || gain <= best_gain) continue;
         best_gain = gain;
         best = {delay_s / count, lag, agreement / count};
