@@ -43,7 +43,8 @@ void declare(CLI::App& app, Arguments& args) {
                        "(default: the first)")
             ->type_name("LABEL");
     auto* const strict = app.add_flag(
-        "--strict", args.strict, "Refuse a recording whose depth cannot be in the right units");
+        "--strict", args.strict,
+        "Refuse a recording whose depth is not registered to colour or not in the right units");
     auto* const set =
         app.add_option("--set", args.assignments, "Override an ini setting; may be repeated")
             ->allow_extra_args(false)

@@ -1,10 +1,12 @@
 /** rgbd-slam's job on real clips: every frame tracked, within the bounds of accuracy, the same
  *  whatever the number of threads. */
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
 #include <ostream>
 
+#include "../support/problem_of.h"
 #include "../support/tum_folder.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/dataset/sequence_import.h"
@@ -81,6 +83,22 @@ TEST_P(SlamOnClip, isTrackedThroughoutAndTheSameEachTime) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Clips, SlamOnClip, testing::ValuesIn(clips));
+
+/** Depth of a camera with 385 px of focal length, taken as if it were that of colour with 603 px.
+ */
+TEST(UnregisteredClip, isRefusedByAStrictJob) {
+    const std::string clip = dataFolder() + "/realsense-unregistered-40";
+    if (!fs::exists(clip)) GTEST_SKIP() << "no clip in " << clip;
+    setVerbosity(Verbosity::Quiet);
+    const TestFolder folder;
+    SlamJob job;
+    job.rawlog = folder / "clip.rawlog";
+    job.out_folder = folder / "out";
+    job.strict = true;
+    importSequence(readTumSequence(clip), pinhole(603, 603, 325, 235), job.rawlog, {});
+    EXPECT_THAT(problemOf([&] { runSlamJob(job); }),
+                testing::HasSubstr("never registered to colour"));
+}
 
 }  // namespace
 }  // namespace rgbd_graphslam

@@ -29,6 +29,7 @@ void RecordingSurvey::add(const mrpt::obs::CObservation3DRangeScan::Ptr& observa
     const RgbdImage image = colorAndDepth(observation);
     depth_unit_m_ = image.depth_unit_m;
     depths_.add(image.depth);
+    focal_length_px_ = cameraOf(*observation).fx;
     if (!image.color.empty()) registration_.add(image.color, image.depth);
 }
 
@@ -62,10 +63,19 @@ std::optional<SurveyWarning> RecordingSurvey::unitsWarning() const {
     return warning;
 }
 
+std::optional<SurveyWarning> RecordingSurvey::registrationWarning() const {
+    const auto found = registration_.finding();
+    if (!found) return std::nullopt;
+    return SurveyWarning{toText(*found, focal_length_px_) +
+                             "; import the recording again with --register camera_depth.ini",
+                         true};
+}
+
 std::vector<SurveyWarning> RecordingSurvey::warnings(const FeatureOptions& features,
                                                      const MapOptions& maps) const {
     std::vector<SurveyWarning> all;
     if (const auto units = unitsWarning()) all.push_back(*units);
+    if (const auto registration = registrationWarning()) all.push_back(*registration);
     const double beyond = shareBeyond(features.farthestDepthM());
     if (beyond > most_beyond) {
         all.push_back(

@@ -23,7 +23,7 @@ struct SurveyWarning {
 class RecordingSurvey {
   public:
     /** Frames at the beginning of a recording that are looked at, one of `step`. */
-    static constexpr std::size_t frames = 40, step = 5;
+    static constexpr std::size_t frames = 40, step = 2;
 
     /** \param beginning observations of the first frames; those without usable images are passed
      *         over, which is tracking's to complain of */
@@ -46,10 +46,11 @@ class RecordingSurvey {
 
   private:
     std::optional<SurveyWarning> unitsWarning() const;
+    std::optional<SurveyWarning> registrationWarning() const;
     void add(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
 
     DepthHistogram depths_;
-    double depth_unit_m_ = 0.001;
+    double depth_unit_m_ = 0.001, focal_length_px_ = 0;
     RegistrationCheck registration_;
 };
 
