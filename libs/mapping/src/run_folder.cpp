@@ -102,7 +102,7 @@ MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
     if (!fs::is_directory(root))
         throw Error("'" + folder + "' is no folder", "give the output folder of rgbd-slam");
     if (const auto map_folder = mapFolderOf(readSummary(root / "summary.json"))) {
-        throw Error("the run in '" + folder + "' was localised and has no map of its own",
+        throw Error("the run in '" + folder + "' was localized and has no map of its own",
                     "give the folder of the map, '" + *map_folder + "'");
     }
     if (!fs::exists(root / "keyframes.txt") || !fs::exists(root / "trajectory.txt")) {

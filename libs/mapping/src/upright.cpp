@@ -185,13 +185,6 @@ std::vector<double> levelHeights(const std::vector<SurfacePatch>& patches,
     return heights;
 }
 
-std::optional<double> floorHeight(const std::vector<SurfacePatch>& patches,
-                                  const Eigen::Vector3d& up) {
-    const auto heights = levelHeights(patches, up);
-    if (heights.empty()) return std::nullopt;
-    return heights.front();
-}
-
 SE3 uprightFrame(const Eigen::Vector3d& up, double floor_m, const SE3& T_world_first) {
     const Eigen::Matrix3d R =
         Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();

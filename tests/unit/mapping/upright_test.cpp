@@ -75,9 +75,9 @@ TEST(Upright, floorGivesUpAndItsHeight) {
     const auto up = upFromFloor(patches, guess.normalized(), M_PI / 4);
     ASSERT_TRUE(up);
     EXPECT_LT(degreesBetween(*up, T_odd_up.R.col(2)), 0.3);
-    const auto floor = floorHeight(patches, *up);
-    ASSERT_TRUE(floor);
-    const SE3 T_up_world = uprightFrame(*up, *floor, trajectory.front().T_world_cam);
+    const auto heights = levelHeights(patches, *up);
+    ASSERT_FALSE(heights.empty());
+    const SE3 T_up_world = uprightFrame(*up, heights.front(), trajectory.front().T_world_cam);
     // A corner of the floor, and the first camera's place and heading.
     EXPECT_NEAR((T_up_world * (T_odd_up * Eigen::Vector3d(1, 1, 0))).z(), 0, 0.015);
     const SE3 T_up_first = T_up_world * trajectory.front().T_world_cam;
@@ -90,15 +90,15 @@ TEST(Upright, floorGivesUpAndItsHeight) {
 TEST(Upright, floorIsFoundBelowAFewStrayPatches) {
     std::vector<SurfacePatch> patches(20, {Eigen::Vector3d(1, 1, 0.01), Eigen::Vector3d::UnitZ()});
     patches.insert(patches.end(), 2, {Eigen::Vector3d(1, 1, 0.05), Eigen::Vector3d::UnitZ()});
-    const auto floor = floorHeight(patches, Eigen::Vector3d::UnitZ());
-    ASSERT_TRUE(floor);
-    EXPECT_NEAR(*floor, 0.01, 1e-9);
+    const auto heights = levelHeights(patches, Eigen::Vector3d::UnitZ());
+    ASSERT_FALSE(heights.empty());
+    EXPECT_NEAR(heights.front(), 0.01, 1e-9);
 }
 
 TEST(Upright, nothingLevelInSightIsSaid) {
     EXPECT_FALSE(upFromFloor({}, Eigen::Vector3d::UnitZ(), M_PI / 4));
-    EXPECT_FALSE(floorHeight({{Eigen::Vector3d(1, 1, 1), Eigen::Vector3d::UnitX()}},
-                             Eigen::Vector3d::UnitZ()));
+    const std::vector<SurfacePatch> wall{{Eigen::Vector3d(1, 1, 1), Eigen::Vector3d::UnitX()}};
+    EXPECT_TRUE(levelHeights(wall, Eigen::Vector3d::UnitZ()).empty());
 }
 
 }  // namespace

@@ -43,11 +43,6 @@ std::optional<Eigen::Vector3d> upFromFloor(const std::vector<SurfacePatch>& patc
 std::vector<double> levelHeights(const std::vector<SurfacePatch>& patches,
                                  const Eigen::Vector3d& up);
 
-/** Height along `up` of the lowest level surface of some size.
- *  \return nothing when no patch is level */
-std::optional<double> floorHeight(const std::vector<SurfacePatch>& patches,
-                                  const Eigen::Vector3d& up);
-
 /** The frame with z up, the floor at z = 0 and the first camera above the origin looking along +x.
  *  \param up unit vector, \param floor_m height of the floor along it, both in world axes */
 SE3 uprightFrame(const Eigen::Vector3d& up, double floor_m, const SE3& T_world_first);
