@@ -44,6 +44,15 @@ void checkContents(const CObservation3DRangeScan& observation) {
     if (!observation.range_is_depth) refuse(observation, "ranges along rays instead of depth");
 }
 
+/** Their coefficients would be read as those of the plumb-bob model. */
+void refuseOtherLenses(const CObservation3DRangeScan& observation) {
+    const mrpt::img::TCamera& camera = observation.cameraParamsIntensity;
+    const bool is_rational = camera.k4() != 0 || camera.k5() != 0 || camera.k6() != 0;
+    if (camera.distortion == mrpt::img::DistortionModel::kannala_brandt || is_rational) {
+        refuse(observation, "its lens model is a fisheye or rational one, which is not supported");
+    }
+}
+
 bool allFinite(const SE3& pose) {
     return pose.R.allFinite() && pose.t.allFinite();
 }
@@ -235,6 +244,7 @@ RgbdImage toRgbdImage(const CObservation3DRangeScan::Ptr& observation) {
 
 Camera cameraOf(const CObservation3DRangeScan& observation) {
     constexpr int largest_image_px = 1 << 16;
+    refuseOtherLenses(observation);
     const Camera stated = toCamera(observation.cameraParamsIntensity);
     const bool has_focus = stated.fx > 0 && stated.fy > 0 && std::isfinite(stated.fx * stated.fy);
     if (!has_focus || !std::isfinite(stated.cx + stated.cy)) {

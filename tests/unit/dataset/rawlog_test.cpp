@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "../../support/problem_of.h"
 #include "../../support/tum_folder.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
@@ -370,6 +371,17 @@ TEST_F(RawlogTest, leftOverImagesAreCountedByReason) {
     EXPECT_NEAR(report.longest_gap_s, 3.99, 1e-6) << "1.01 to 5";
     EXPECT_THAT(toText(report), ::testing::HasSubstr("longest gap 3.99 s"));
     EXPECT_TRUE(samePixels(toRgbdImage(framesOf(rawlog())[0]).color, small_sequence::color(1)));
+}
+
+TEST_F(RawlogTest, otherLensModelsAreRefused) {
+    import();
+    const auto frame = framesOf(rawlog()).front();
+    frame->cameraParamsIntensity.setDistortionKannalaBrandt(0.1, 0.02, 0, 0);
+    EXPECT_THAT(problemOf([&] { cameraOf(*frame); }), HasSubstr("fisheye or rational"));
+    frame->cameraParamsIntensity.setDistortionPlumbBob(0.1, 0, 0, 0, 0);
+    EXPECT_NO_THROW(cameraOf(*frame));
+    frame->cameraParamsIntensity.dist[5] = 0.3;
+    EXPECT_THAT(problemOf([&] { cameraOf(*frame); }), HasSubstr("fisheye or rational"));
 }
 
 TEST_F(RawlogTest, framesWithoutDepthOrColourOrOfUnequalSizeAreNamed) {
