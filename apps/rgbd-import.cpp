@@ -129,6 +129,8 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_flag("--no-camera", args.bag.no_camera,
                  "Bags: write IMU, odometry, laser scans and GPS alone");
     declareCommonOptions(app);
+    declareExamples(app, {"rgbd-import rgbd_dataset_freiburg1_desk.tgz desk.rawlog",
+                          "rgbd-import recording.bag recording.rawlog --camera camera.ini"});
 }
 
 CameraSetup guessedCamera(const RgbdSequence& sequence, SequenceLayout layout) {
@@ -257,8 +259,8 @@ int run(Arguments& args) {
 int main(int argc, char** argv) {
     using namespace rgbd_graphslam;
     CLI::App app(
-        "Imports a sequence of the TUM RGB-D benchmark, or in a similar layout, into an MRPT "
-        "rawlog",
+        "Imports an RGB-D recording (image folders of many layouts, archives, ROS bags, .sens) "
+        "into an MRPT rawlog",
         "rgbd-import");
     Arguments args;
     declare(app, args);

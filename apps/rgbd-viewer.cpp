@@ -86,5 +86,6 @@ int main(int argc, char** argv) {
         "rgbd-viewer");
     declare(app, args);
     declareCommonOptions(app);
+    declareExamples(app, {"rgbd-viewer out", "rgbd-viewer out --snapshot view.png"});
     return runProgram(app, argc, argv, [&] { return run(args); });
 }

@@ -33,7 +33,7 @@ double freeGigabytes() {
 std::string inFigures(const SequenceResult& result) {
     if (!result.problem.empty()) return "failed: " + result.problem;
     char text[128];
-    std::snprintf(text, sizeof text, "%zu frames, %zu lost, %.1f ms CPU a frame", result.frames,
+    std::snprintf(text, sizeof text, "%zu frames, %zu lost, %.1f ms CPU per frame", result.frames,
                   result.lost, result.cpu_ms_a_frame);
     std::string figures = text;
     if (result.ate_rmse_m) {

@@ -244,7 +244,7 @@ std::string resultTable(const SlamJob& job, const JobReport& report) {
                           report.ate_pairs);
     }
     text += "quality       " + qualityText(report.quality) + "\n";
-    text += formatted("speed         %.1f frames/s, %.1f ms CPU a frame\n",
+    text += formatted("speed         %.1f frames/s, %.1f ms CPU per frame\n",
                       report.framesPerSecond(), report.cpuMsAFrame());
     text += formatted("peak memory   %.0f MB\n", report.peak_memory_mb);
     return text + "written to    " + job.out_folder + "\n";
