@@ -1,6 +1,7 @@
 #include "ros_images.h"
 
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <opencv2/imgcodecs.hpp>
@@ -54,8 +55,14 @@ cv::Mat pixelsOf(const Image& image, int type) {
         refuse(image.header, swapped ? "is big-endian" : "is not whole",
                "copy the recording again");
     }
-    return {static_cast<int>(image.height), static_cast<int>(image.width), type,
-            const_cast<char*>(image.data.data()), image.step};
+    const int rows = static_cast<int>(image.height), columns = static_cast<int>(image.width);
+    char* const bytes = const_cast<char*>(image.data.data());
+    if (CV_ELEM_SIZE1(type) == 1) return {rows, columns, type, bytes, image.step};
+    cv::Mat pixels(rows, columns, type);  // bytes of a message may start at any address
+    for (int v = 0; v < rows; ++v) {
+        std::memcpy(pixels.ptr(v), bytes + std::size_t{image.step} * v, row_bytes);
+    }
+    return pixels;
 }
 
 ImageFile fileOf(const std::string& extension, const cv::Mat& pixels) {
