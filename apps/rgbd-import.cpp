@@ -59,7 +59,7 @@ SensorUnitValues sensorUnits(const Arguments& args) {
             unitValue(angleUnits(), args.heading_unit)};
 }
 
-void declare(CLI::App& app, Arguments& args) {
+void declareSource(CLI::App& app, Arguments& args) {
     app.add_option("DIR", args.source,
                    "Folder of the sequence, its .tgz archive, ScanNet's .sens, or a ROS bag: .bag "
                    "(ROS 1, RealSense), .db3, .mcap or folder (ROS 2)")
@@ -67,21 +67,26 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_option("OUT.rawlog", args.rawlog, "Rawlog to write")->required();
     std::vector<std::string> layouts = layoutNames();
     layouts.insert(layouts.begin(), "auto");
-    app.add_option("--layout", args.layout, "How the folder is laid out; auto: found out")
+    app.add_option("--layout", args.layout, "Layout of the folder; auto: detected")
         ->check(CLI::IsMember(layouts))
         ->type_name("NAME")
         ->capture_default_str();
     app.add_option("--rate", args.rate_hz,
-                   "Frames a second, for layouts that number images instead of stamping them")
+                   "Frames per second, for layouts whose images are numbered instead of stamped")
         ->check(positive())
         ->capture_default_str();
+}
+
+void declareCalibration(CLI::App& app, Arguments& args) {
     app.add_option(
         "--camera", args.camera,
         "fr1, fr2, fr3, ros, an ini file with [CAMERA_PARAMS], or a calibration of librealsense, "
         "Open3D or Azure Kinect (.json) or of ROS or Kalibr (.yaml); default: DIR/camera.ini, else "
-        "the layout's, else guessed from the folder's name");
-    app.add_option("--depth-units", args.depth_units,
-                   "Depth units a metre; default: the camera file's, else 5000")
+        "the layout's, else inferred from the folder's name");
+    app.add_option(
+           "--depth-units", args.depth_units,
+           "Depth units per metre (1000 for millimetres, 5000 for TUM); default: the camera "
+           "file's, else 5000")
         ->check(positive());
     app.add_option("--depth-scale", args.depth_scale,
                    "Factor on depth; default: the camera file's, else 1")
@@ -93,13 +98,31 @@ void declare(CLI::App& app, Arguments& args) {
            "cameras lie, depth_units that of the images")
         ->excludes("--depth-units")
         ->excludes("--depth-scale");
+    app.add_option("--no-reading", args.import.no_reading,
+                   "Raw depth value that means no reading, besides 0; 0: none does; default: "
+                   "detected")
+        ->type_name("VALUE");
+}
+
+/** Which images make a frame, and which recordings are refused. */
+void declareFrames(CLI::App& app, Arguments& args) {
     app.add_option("--max-difference", args.import.max_difference_s,
-                   "Colour and depth further apart are no pair, s")
+                   "Maximum time difference between paired colour and depth images, s")
         ->check(positive())
         ->capture_default_str();
     app.add_option("--depth-offset", args.import.depth_offset_s,
                    "Added to the depth images' stamps, s; for depth that comes early or late")
         ->type_name("S");
+    app.add_flag("--strict", args.import.strict,
+                 "Refuse a recording with missing files, or with depth that seems wrong: its unit, "
+                 "its place in the colour image or its time");
+    app.add_flag("--allow-loss", args.import.allow_loss,
+                 "Import even when more than half of the frames are lost");
+    app.add_flag("--skip-damaged", args.import.skip_damaged,
+                 "Leave frames with a damaged image out instead of stopping");
+}
+
+void declareStorage(CLI::App& app, Arguments& args) {
     app.add_option("--threads", args.import.threads, "Threads that decode images")
         ->check(CLI::Range(1, 256))
         ->capture_default_str();
@@ -108,18 +131,9 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_flag("--small", args.small,
                  "One compressed file, colour as JPEG: smallest, slower, colour not exact")
         ->excludes("--compact");
-    app.add_flag("--strict", args.import.strict,
-                 "Refuse a recording with missing files, or with depth that seems wrong: its unit, "
-                 "its place in the colour image or its time");
-    app.add_flag("--allow-loss", args.import.allow_loss,
-                 "Import even when more than half of the frames are lost");
-    app.add_option("--no-reading", args.import.no_reading,
-                   "Raw depth value that means no reading, besides 0; 0: none does; default: "
-                   "detected")
-        ->type_name("VALUE");
-    app.add_flag("--skip-damaged", args.import.skip_damaged,
-                 "Leave frames with a damaged image out instead of stopping");
-    declareSensorUnits(app, args);
+}
+
+void declareBag(CLI::App& app, Arguments& args) {
     app.add_option("--color-topic", args.bag.color_topic,
                    "Bags: image topic for colour; default: the best one")
         ->type_name("TOPIC");
@@ -128,6 +142,15 @@ void declare(CLI::App& app, Arguments& args) {
         ->type_name("TOPIC");
     app.add_flag("--no-camera", args.bag.no_camera,
                  "Bags: write IMU, odometry, laser scans and GPS alone");
+}
+
+void declare(CLI::App& app, Arguments& args) {
+    declareSource(app, args);
+    declareCalibration(app, args);
+    declareFrames(app, args);
+    declareStorage(app, args);
+    declareSensorUnits(app, args);
+    declareBag(app, args);
     declareCommonOptions(app);
     declareExamples(app, {"rgbd-import rgbd_dataset_freiburg1_desk.tgz desk.rawlog",
                           "rgbd-import recording.bag recording.rawlog --camera camera.ini"});
