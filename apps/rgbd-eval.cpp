@@ -3,7 +3,7 @@
 
 #include "command_line.h"
 #include "rgbd_graphslam/evaluation/commands.h"
-#include "rgbd_graphslam/mapping/octree_accuracy.h"
+#include "rgbd_graphslam/evaluation/octree_accuracy.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -64,7 +64,7 @@ void addRpe(CLI::App& app, RpeRequest& request) {
                   positive());
     declareChoice(command, "--delta-unit", options.unit,
                   {{"s", DeltaUnit::Seconds},
-                   {"m", DeltaUnit::Metres},
+                   {"m", DeltaUnit::Meters},
                    {"rad", DeltaUnit::Radians},
                    {"deg", DeltaUnit::Degrees},
                    {"f", DeltaUnit::Frames}},
@@ -110,7 +110,7 @@ void takeFiles(const std::vector<std::string>& files, PointCloudRequest& request
 }
 
 void addPointCloud(CLI::App& app, PointCloudRequest& request, std::vector<std::string>& files) {
-    auto& command = *app.add_subcommand("pointcloud", "Coloured points of RGB-D images");
+    auto& command = *app.add_subcommand("pointcloud", "Colored points of RGB-D images");
     command
         .add_option("RGB DEPTH OUT.ply", files,
                     "Images, or with --trajectory lists of them; the file to write")
@@ -125,7 +125,7 @@ void addPointCloud(CLI::App& app, PointCloudRequest& request, std::vector<std::s
         ->capture_default_str();
     command
         .add_option("--depth-units", request.depth_units,
-                    "Depth units a metre; default: the camera's")
+                    "Depth units a meter; default: the camera's")
         ->check(positive());
     declareNumber(command, "--max-difference", request.max_difference_s,
                   "Stamps further apart are no pair, s", positive());

@@ -85,7 +85,7 @@ void declareCalibration(CLI::App& app, Arguments& args) {
         "the layout's, else inferred from the folder's name");
     app.add_option(
            "--depth-units", args.depth_units,
-           "Depth units per metre (1000 for millimetres, 5000 for TUM); default: the camera "
+           "Depth units per meter (1000 for millimeters, 5000 for TUM); default: the camera "
            "file's, else 5000")
         ->check(positive());
     app.add_option("--depth-scale", args.depth_scale,
@@ -94,7 +94,7 @@ void declareCalibration(CLI::App& app, Arguments& args) {
     app.add_option(
            "--register", args.depth_camera,
            "Ini file of the camera that took the depth images, when they are not registered "
-           "to colour: they are warped to it. sensor_pose in both files tells how the "
+           "to color: they are warped to it. sensor_pose in both files tells how the "
            "cameras lie, depth_units that of the images")
         ->excludes("--depth-units")
         ->excludes("--depth-scale");
@@ -107,7 +107,7 @@ void declareCalibration(CLI::App& app, Arguments& args) {
 /** Which images make a frame, and which recordings are refused. */
 void declareFrames(CLI::App& app, Arguments& args) {
     app.add_option("--max-difference", args.import.max_difference_s,
-                   "Maximum time difference between paired colour and depth images, s")
+                   "Maximum time difference between paired color and depth images, s")
         ->check(positive())
         ->capture_default_str();
     app.add_option("--depth-offset", args.import.depth_offset_s,
@@ -115,7 +115,7 @@ void declareFrames(CLI::App& app, Arguments& args) {
         ->type_name("S");
     app.add_flag("--strict", args.import.strict,
                  "Refuse a recording with missing files, or with depth that seems wrong: its unit, "
-                 "its place in the colour image or its time");
+                 "its place in the color image or its time");
     app.add_flag("--allow-loss", args.import.allow_loss,
                  "Import even when more than half of the frames are lost");
     app.add_flag("--skip-damaged", args.import.skip_damaged,
@@ -129,13 +129,13 @@ void declareStorage(CLI::App& app, Arguments& args) {
     app.add_flag("--compact", args.compact,
                  "Keep images lossless in files beside the rawlog: smaller, slower to read");
     app.add_flag("--small", args.small,
-                 "One compressed file, colour as JPEG: smallest, slower, colour not exact")
+                 "One compressed file, color as JPEG: smallest, slower, color not exact")
         ->excludes("--compact");
 }
 
 void declareBag(CLI::App& app, Arguments& args) {
     app.add_option("--color-topic", args.bag.color_topic,
-                   "Bags: image topic for colour; default: the best one")
+                   "Bags: image topic for color; default: the best one")
         ->type_name("TOPIC");
     app.add_option("--depth-topic", args.bag.depth_topic,
                    "Bags: image topic for depth; default: registered depth, else raw depth")
@@ -194,7 +194,7 @@ CameraSetup chooseCamera(const Arguments& args, const RgbdSequence& sequence,
     return sequence.camera ? *sequence.camera : guessedCamera(sequence, layout);
 }
 
-/** A recorded depth camera stays where it is beside the colour camera, wherever --camera puts that
+/** A recorded depth camera stays where it is beside the color camera, wherever --camera puts that
  *  on the robot. */
 std::optional<CameraSetup> besideCamera(const RgbdSequence& sequence, const CameraSetup& color) {
     if (!sequence.depth_camera || !sequence.camera) return sequence.depth_camera;
@@ -224,7 +224,7 @@ int importRead(const Arguments& args, const RgbdSequence& recorded, SequenceLayo
         options.depth_camera = readCalibration(args.depth_camera);
     } else if (!options.depth_camera && fs::exists(beside)) {
         options.depth_camera = readCameraFile(beside);
-        sayInfo("depth is registered to colour by " + beside.string());
+        sayInfo("depth is registered to color by " + beside.string());
     }
     if (args.depth_units > 0 && options.depth_camera) {
         options.depth_camera->depth_units = args.depth_units;

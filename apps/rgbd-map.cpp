@@ -4,7 +4,7 @@
 
 #include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
-#include "rgbd_graphslam/mapping/level_survey.h"
+#include "rgbd_graphslam/mapping/gravity_aligner.h"
 #include "rgbd_graphslam/mapping/run_folder.h"
 #include "rgbd_graphslam/mapping/scan_rawlog.h"
 #include "rgbd_graphslam/report/run_report.h"
@@ -89,7 +89,7 @@ int main(int argc, char** argv) {
         const std::string& folder =
             arguments.destination.empty() ? arguments.folder : arguments.destination;
         MapInputs inputs = readRunFolder(arguments.folder, arguments.rawlog);
-        if (arguments.upright) inputs = transformed(uprightFromWorld(inputs, options), inputs);
+        if (arguments.upright) inputs = transformed(T_gravity_world(inputs, options), inputs);
         const MapSummary summary = writeMaps(inputs, options, folder);
         std::size_t scans = 0;
         if (arguments.scans_per_s > 0)

@@ -4,7 +4,7 @@
 #include "command_line.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
-#include "rgbd_graphslam/graphslam/slam_job.h"
+#include "rgbd_graphslam/job/slam_job.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -44,7 +44,7 @@ void declare(CLI::App& app, Arguments& args) {
             ->type_name("LABEL");
     auto* const strict = app.add_flag(
         "--strict", args.strict,
-        "Refuse a recording whose depth is not registered to colour or not in the right units");
+        "Refuse a recording whose depth is not registered to color or not in the right units");
     auto* const set =
         app.add_option("--set", args.assignments, "Override an ini setting; may be repeated")
             ->allow_extra_args(false)
@@ -117,7 +117,7 @@ SlamJob jobOf(const CLI::App& app, const Arguments& args) {
     job.out_folder = args.out_folder;
     job.options = options;
     job.map_folder = args.map_folder;
-    job.map_use = args.extend ? MapUse::Extend : MapUse::Localise;
+    job.map_use = args.extend ? MapUse::Extend : MapUse::Localize;
     job.view = args.view;
     job.sensor_label = args.sensor_label;
     job.strict = args.strict;

@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
     app.add_option("--size", size, "of the pictures; the field of view stays")
         ->capture_default_str();
     app.add_option("--registration-error", options.registration_error_px,
-                   "shift of depth against colour, pixels");
+                   "shift of depth against color, pixels");
     app.add_option("--readout", readout_ms,
                    "rolling shutter: time from the first row's reading to the last's, ms")
         ->check(notNegative())

@@ -33,7 +33,7 @@ cv::Mat texturedImage() {
 const RgbdImage& texturedFrame() {
     static const RgbdImage frame = [] {
         RgbdImage made;
-        made.grey = texturedImage();
+        made.gray = texturedImage();
         made.depth.create(480, 640, CV_16UC1);
         cv::RNG(8).fill(made.depth, cv::RNG::UNIFORM, 1990, 2010);
         return made;
@@ -53,7 +53,7 @@ cv::Size levelSize(const FeatureOptions& options, int level) {
 }
 
 std::vector<cv::Mat> sharpPyramid(const FeatureOptions& options) {
-    std::vector<cv::Mat> levels = {texturedFrame().grey};
+    std::vector<cv::Mat> levels = {texturedFrame().gray};
     for (int l = 1; l < options.levels; ++l) {
         cv::Mat next;
         cv::resize(levels.back(), next, levelSize(options, l), 0, 0, cv::INTER_LINEAR);
@@ -99,7 +99,7 @@ void extraction(benchmark::State& state) {
     const FeatureOptions options = optionsFor(state);
     const OrbExtractor extractor(options);
     std::size_t corners = 0;
-    for (auto _ : state) corners = extractor.extract(texturedFrame().grey).corners.size();
+    for (auto _ : state) corners = extractor.extract(texturedFrame().gray).corners.size();
     state.counters["features"] = static_cast<double>(corners);
     state.counters["traffic_bytes"] = pyramidTraffic(options);
 }
@@ -126,7 +126,7 @@ void openCvOrb(benchmark::State& state) {
     std::vector<cv::KeyPoint> keypoints;
     cv::Mat descriptors;
     for (auto _ : state) {
-        orb->detectAndCompute(texturedFrame().grey, cv::noArray(), keypoints, descriptors);
+        orb->detectAndCompute(texturedFrame().gray, cv::noArray(), keypoints, descriptors);
     }
     state.counters["features"] = static_cast<double>(keypoints.size());
 }
@@ -135,7 +135,7 @@ BENCHMARK(openCvOrb)->ArgName("count")->Arg(500)->Arg(1000)->Arg(2000)->Unit(
 
 void stageShrinkAndSmooth(benchmark::State& state) {
     const FeatureOptions options;
-    cv::Mat smoothed(texturedFrame().grey.size(), CV_8UC1);
+    cv::Mat smoothed(texturedFrame().gray.size(), CV_8UC1);
     for (auto _ : state) {
         for (const cv::Mat& level : sharpPyramid(options)) smooth(level, smoothed);
     }
@@ -157,7 +157,7 @@ void stageFast(benchmark::State& state) {
 BENCHMARK(stageFast)->Unit(benchmark::kMillisecond);
 
 void stageOrientation(benchmark::State& state) {
-    const cv::Mat& image = texturedFrame().grey;
+    const cv::Mat& image = texturedFrame().gray;
     const auto corners = cornersOf(image, 7);
     for (auto _ : state) {
         for (int i = 0; i < 1000; ++i) {
@@ -170,7 +170,7 @@ BENCHMARK(stageOrientation)->Unit(benchmark::kMillisecond);
 
 void stageDepth(benchmark::State& state) {
     const FeatureOptions options;
-    const auto corners = cornersOf(texturedFrame().grey, 7);
+    const auto corners = cornersOf(texturedFrame().gray, 7);
     for (auto _ : state) {
         for (int i = 0; i < 1000; ++i) {
             const FastCorner& c = corners[i % corners.size()];
@@ -184,7 +184,7 @@ BENCHMARK(stageDepth)->Unit(benchmark::kMillisecond);
 
 /** A thousand patches found half a pixel from where they were looked for. */
 void stageAlignment(benchmark::State& state) {
-    const auto features = OrbExtractor(FeatureOptions{}).extract(texturedFrame().grey);
+    const auto features = OrbExtractor(FeatureOptions{}).extract(texturedFrame().gray);
     std::vector<Patch> moved = features.patches;
     for (Patch& patch : moved) patch.corner += cv::Point2f(0.4F, -0.3F);
     const PatchMotion motion{1, static_cast<float>(0.1 * state.range(0))};

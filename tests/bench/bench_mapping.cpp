@@ -92,7 +92,7 @@ BENCHMARK(pointFusion)->Arg(1)->Arg(2)->Unit(benchmark::kMillisecond);
 void meshFusion(benchmark::State& state) {
     const RayTable rays(sequence().camera);
     for (auto _ : state) {
-        DistanceVolume volume(resolutionOf(state));
+        TsdfVolume volume(resolutionOf(state));
         for (int i = 0; i < views; ++i) {
             volume.insert(sequence().poses[i], DepthView(sequence().images[i], rays, MapOptions()));
         }
@@ -104,7 +104,7 @@ BENCHMARK(meshFusion)->Arg(4)->Arg(2)->Arg(1)->Unit(benchmark::kMillisecond);
 
 void meshOfRoom(benchmark::State& state) {
     const RayTable rays(sequence().camera);
-    DistanceVolume volume(resolutionOf(state));
+    TsdfVolume volume(resolutionOf(state));
     for (int i = 0; i < views; ++i)
         volume.insert(sequence().poses[i], DepthView(sequence().images[i], rays, MapOptions()));
     for (auto _ : state) {

@@ -1,4 +1,4 @@
-/** Ways to recognise a place by binary descriptors: cost of a query and what it finds again. */
+/** Ways to recognize a place by binary descriptors: cost of a query and what it finds again. */
 #include <benchmark/benchmark.h>
 
 #include <bitset>
@@ -122,7 +122,7 @@ class Exhaustive {
 };
 
 template <class Index>
-void recognise(benchmark::State& state) {
+void recognize(benchmark::State& state) {
     const int keyframes = static_cast<int>(state.range(0));
     Index index(max_hamming);
     for (int k = 0; k < keyframes; ++k) index.insert(k, place(k));
@@ -140,9 +140,9 @@ void sizesAndFlips(benchmark::internal::Benchmark* bench) {
         for (const int flips : {10, 20, 30}) bench->Args({keyframes, flips});
     }
 }
-BENCHMARK_TEMPLATE(recognise, PlaceIndex)->Apply(sizesAndFlips);
-BENCHMARK_TEMPLATE(recognise, HashTables)->Apply(sizesAndFlips);
-BENCHMARK_TEMPLATE(recognise, Exhaustive)
+BENCHMARK_TEMPLATE(recognize, PlaceIndex)->Apply(sizesAndFlips);
+BENCHMARK_TEMPLATE(recognize, HashTables)->Apply(sizesAndFlips);
+BENCHMARK_TEMPLATE(recognize, Exhaustive)
     ->ArgNames({"keyframes", "flips"})
     ->Args({100, 10})
     ->Args({100, 20})

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <random>
 
-#include "rgbd_graphslam/graphslam/sparse_map_file.h"
+#include "rgbd_graphslam/job/sparse_map_file.h"
 #include "rgbd_graphslam/slam/visual_slam.h"
 
 namespace rgbd_graphslam {
@@ -65,7 +65,7 @@ void loadMap(benchmark::State& state) {
     const MapOnDisk disk(static_cast<int>(state.range(0)));
     for (auto _ : state) {
         SparseMap map = readSparseMap(disk.path);
-        const VisualSlam slam(SlamOptions{}, Camera{}, std::move(map.snapshot), MapUse::Localise);
+        const VisualSlam slam(SlamOptions{}, Camera{}, std::move(map.snapshot), MapUse::Localize);
         benchmark::DoNotOptimize(slam.keyframes().size());
     }
     state.counters["MB"] = 1e-6 * static_cast<double>(std::filesystem::file_size(disk.path));

@@ -165,7 +165,7 @@ void localAdjustmentByCeres(benchmark::State& state) {
 }
 BENCHMARK(localAdjustmentByCeres)->Unit(benchmark::kMillisecond);
 
-/** What a robot sees on its way: neighbouring keyframes share four fifths of their descriptors. */
+/** What a robot sees on its way: neighboring keyframes share four fifths of their descriptors. */
 class Way {
   public:
     static constexpr int descriptors = 500, fresh = 100;
@@ -238,7 +238,7 @@ PoseGraph rounds(int nodes) {
     };
     graph.nodes.push_back(truth(0));
     for (int i = 1; i < nodes; ++i) {
-        tie(i - 1, i, EdgeKind::Odometry);
+        tie(i - 1, i, EdgeKind::Sequential);
         graph.nodes.push_back(graph.nodes.back() * graph.edges.back().T_from_to);
     }
     for (int i = per_round; i < nodes; ++i) tie(i - per_round, i, EdgeKind::Loop);

@@ -3,7 +3,7 @@
 puts the camera afterwards.
 
 The recipe: `rgbd-synth corridor-loop`, whose walls and floor repeat every 1.6 m, with some frames
-replaced by a grey picture without depth (black) or by something flat before the lens (flat). A
+replaced by a gray picture without depth (black) or by something flat before the lens (flat). A
 frame's error is that of its motion since the last frame before the cover; the bound is 0.03 m and
 2 % of the way driven blind."""
 
@@ -24,7 +24,7 @@ PERIOD_S = 1 / 30
 
 
 def write_png(path, width, height, bits, channels, rows):
-    """PNG of 1 (grey) or 3 channels; rows are bytes, big-endian where bits is 16."""
+    """PNG of 1 (gray) or 3 channels; rows are bytes, big-endian where bits is 16."""
     def chunk(kind, data):
         body = kind + data
         return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
@@ -39,7 +39,7 @@ def write_color(path, width, height, rows):
 
 
 def cover(folder, kind, width, height, index):
-    """Makes the pictures of a covered lens. Returns the names of colour and depth."""
+    """Makes the pictures of a covered lens. Returns the names of color and depth."""
     if kind == "black":
         color, depth = folder / "cover.png", folder / "nothing.png"
         if not color.exists():
@@ -220,7 +220,7 @@ def main():
             failures += failed
             states = [row["origin"] for row in rows.values()]
             counts = [states.count(s)
-                      for s in ("tracked", "recovered", "weak", "uncertain", "lost")]
+                      for s in ("tracked", "recovered", "dead_reckoned", "uncertain", "lost")]
             print(f"{first} {seconds:g} {way:.2f} {error:.4f} {bound:.4f} {jump:.4f} {sigmas:.1f}", *counts,
                   "FAILED" if failed else "ok", flush=True)
     total = len(places) * len(lengths)

@@ -10,8 +10,8 @@
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
-#include "rgbd_graphslam/evaluation/ate.h"
-#include "rgbd_graphslam/graphslam/slam_job.h"
+#include "rgbd_graphslam/job/slam_job.h"
+#include "rgbd_graphslam/metrics/ate.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -38,15 +38,15 @@ const Recipe recipes[] = {{Cover::Black, 60, 30, 0.043},
                           {Cover::Flat, 60, 30, 0.043},
                           {Cover::Flat, 110, 45, 0.05}};
 
-/** Grey 110; without depth, or 1 m away with the noise of a sensor. */
+/** Gray 110; without depth, or 1 m away with the noise of a sensor. */
 void putCover(Cover cover, unsigned frame, mrpt::obs::CObservation3DRangeScan& rgbd) {
     cv::Mat color(height, width, CV_8UC3, cv::Scalar::all(110));
     cv::Mat depth = cv::Mat::zeros(height, width, CV_16UC1);
     if (cover == Cover::Flat) {
         std::mt19937 random(frame);
         for (int i = 0; i < width * height; ++i) {
-            const int grey = 108 + static_cast<int>(random() % 5);
-            color.at<cv::Vec3b>(i / width, i % width) = cv::Vec3b::all(grey);
+            const int gray = 108 + static_cast<int>(random() % 5);
+            color.at<cv::Vec3b>(i / width, i % width) = cv::Vec3b::all(gray);
             depth.at<std::uint16_t>(i / width, i % width) =
                 static_cast<std::uint16_t>(units_per_m - 8 + random() % 17);
         }
@@ -85,7 +85,7 @@ TEST_P(CoveredLens, wheelsCarryTheCameraToWhereItIsFoundAgain) {
     cover(film + ".rawlog");
     const JobReport report = runSlamJob(job_);
     EXPECT_EQ(report.lost, 0u);
-    EXPECT_GE(report.weak, static_cast<std::size_t>(GetParam().frames));
+    EXPECT_GE(report.dead_reckoned, static_cast<std::size_t>(GetParam().frames));
     const AteResult ate = evaluateAte(readTumTrajectory(folder_ / "out/trajectory.txt"),
                                       readTumTrajectory(film + "/groundtruth.txt"));
     EXPECT_EQ(ate.pairs.size(), report.frames);

@@ -132,7 +132,7 @@ TEST_F(EvaluationData, associationOfWholeListsIsTheReference) {
               joined(linesOf(trajectory("associations_reference/fr1_desk.txt"))));
 }
 
-/** Of fr1/xyz the list of colour images is known only as far as they found a partner, which takes
+/** Of fr1/xyz the list of color images is known only as far as they found a partner, which takes
  *  nothing away from the others. */
 TEST_F(EvaluationData, associationWithAWholeDepthListIsTheReference) {
     const auto reference = linesOf(trajectory("associations_reference/fr1_xyz.txt"));

@@ -7,7 +7,7 @@
 
 #include "../support/node_packages.h"
 #include "../support/synthetic_film.h"
-#include "rgbd_graphslam/evaluation/ply.h"
+#include "rgbd_graphslam/geometry/ply.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 
 namespace rgbd_graphslam {

@@ -13,8 +13,8 @@
 #include "../support/synthetic_film.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
-#include "rgbd_graphslam/evaluation/ate.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/metrics/ate.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -111,7 +111,7 @@ class TwoSessions : public testing::Test {
     std::string film_[2];
 };
 
-TEST_F(TwoSessions, theSecondIsLocalisedInTheMapOfTheFirst) {
+TEST_F(TwoSessions, theSecondIsLocalizedInTheMapOfTheFirst) {
     map("2", "--localize --map '" + runOf("1") + "'");
     const Trajectory truth = truthInTheMap(),
                      found = readTumTrajectory(runOf("2") + "/trajectory.txt");

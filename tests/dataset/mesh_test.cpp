@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "../support/synthetic_film.h"
-#include "rgbd_graphslam/evaluation/ply.h"
+#include "rgbd_graphslam/geometry/ply.h"
 
 namespace rgbd_graphslam {
 namespace {

@@ -10,9 +10,9 @@
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/dataset/sequence_import.h"
 #include "rgbd_graphslam/dataset/tum_sequence.h"
-#include "rgbd_graphslam/graphslam/frame_stream.h"
-#include "rgbd_graphslam/graphslam/slam_job.h"
-#include "rgbd_graphslam/graphslam/sparse_map_file.h"
+#include "rgbd_graphslam/input/frame_stream.h"
+#include "rgbd_graphslam/job/slam_job.h"
+#include "rgbd_graphslam/job/sparse_map_file.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 struct Clip {
     const char* name;
     double f, cx, cy;
-    /** From the straight line between its neighbours; the last camera is fast and half blind. */
+    /** From the straight line between its neighbors; the last camera is fast and half blind. */
     double max_detour_m;
 };
 
@@ -75,8 +75,8 @@ class MapOfEvenFrames : public testing::TestWithParam<Clip> {
         importSequence(sequence, setup, rawlog, {});
     }
     /** Poses of even frames lie before and after each odd one. */
-    void expectBetweenNeighbours(const StampedPose& found, const Trajectory& even,
-                                 const SE3& T_even_found) const {
+    void expectBetweenNeighbors(const StampedPose& found, const Trajectory& even,
+                                const SE3& T_even_found) const {
         const auto after = std::lower_bound(
             even.begin(), even.end(), found.stamp_s,
             [](const StampedPose& pose, double stamp_s) { return pose.stamp_s < stamp_s; });
@@ -99,12 +99,12 @@ TEST_P(MapOfEvenFrames, holdsTheOddOnes) {
     EXPECT_GE(report.tracked + report.recovered, 0.95 * report.frames);
     const auto even = readTumTrajectory(folder_ / "even/trajectory.txt");
     for (const StampedPose& pose : readTumTrajectory(folder_ / "odd/trajectory.txt")) {
-        expectBetweenNeighbours(pose, even, SE3());
+        expectBetweenNeighbors(pose, even, SE3());
     }
 }
 
 /** Each odd frame without any idea of its pose: as the first of a run. */
-TEST_P(MapOfEvenFrames, anyFrameIsRecognisedAlone) {
+TEST_P(MapOfEvenFrames, anyFrameIsRecognizedAlone) {
     const SparseMap map = readSparseMap(folder_ / "even/map.sparse");
     FrameStream stream(folder_ / "odd.rawlog", RunOptions());
     const SlamOptions options;
@@ -112,25 +112,25 @@ TEST_P(MapOfEvenFrames, anyFrameIsRecognisedAlone) {
     const VisualSlam extractor(options, camera);
     stream.start([&](const RgbdImage& image) { return extractor.prepare(image); });
     const auto even = readTumTrajectory(folder_ / "even/trajectory.txt");
-    int frames = 0, recognised = 0;
+    int frames = 0, recognized = 0;
     std::vector<double> cpu_ms;
     while (auto frame = stream.next()) {
-        VisualSlam slam(options, camera, map.snapshot, MapUse::Localise);
+        VisualSlam slam(options, camera, map.snapshot, MapUse::Localize);
         const TrackedFrame found = slam.track(std::move(frame->prepared));
         ++frames;
         for (const auto& stage : slam.stageTimes()) {
-            if (stage.stage == "relocalise") cpu_ms.push_back(stage.cpu_ms.front());
+            if (stage.stage == "relocalize") cpu_ms.push_back(stage.cpu_ms.front());
         }
         if (found.origin != FrameOrigin::Recovered) continue;
-        ++recognised;
-        expectBetweenNeighbours({found.stamp_s, found.T_world_cam}, even, map.T_up_world);
+        ++recognized;
+        expectBetweenNeighbors({found.stamp_s, found.T_world_cam}, even, map.T_up_world);
     }
     stream.stop();
-    EXPECT_GE(recognised, 0.95 * frames);
+    EXPECT_GE(recognized, 0.95 * frames);
     ASSERT_EQ(cpu_ms.size(), static_cast<std::size_t>(frames));
-    RecordProperty("recognised", std::to_string(recognised) + " of " + std::to_string(frames));
-    std::printf("%s: %d of %d recognised alone, CPU p50 %.1f ms, p95 %.1f ms\n", GetParam().name,
-                recognised, frames, percentile(cpu_ms, 0.5), percentile(cpu_ms, 0.95));
+    RecordProperty("recognized", std::to_string(recognized) + " of " + std::to_string(frames));
+    std::printf("%s: %d of %d recognized alone, CPU p50 %.1f ms, p95 %.1f ms\n", GetParam().name,
+                recognized, frames, percentile(cpu_ms, 0.5), percentile(cpu_ms, 0.95));
 #ifndef __SANITIZE_ADDRESS__  // which takes its own time
     EXPECT_LE(percentile(cpu_ms, 0.95), 50);
 #endif

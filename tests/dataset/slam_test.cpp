@@ -11,7 +11,7 @@
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/dataset/sequence_import.h"
 #include "rgbd_graphslam/dataset/tum_sequence.h"
-#include "rgbd_graphslam/graphslam/slam_job.h"
+#include "rgbd_graphslam/job/slam_job.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -84,7 +84,7 @@ TEST_P(SlamOnClip, isTrackedThroughoutAndTheSameEachTime) {
 
 INSTANTIATE_TEST_SUITE_P(Clips, SlamOnClip, testing::ValuesIn(clips));
 
-/** Depth of a camera with 385 px of focal length, taken as if it were that of colour with 603 px.
+/** Depth of a camera with 385 px of focal length, taken as if it were that of color with 603 px.
  */
 TEST(UnregisteredClip, isRefusedByAStrictJob) {
     const std::string clip = dataFolder() + "/realsense-unregistered-40";
@@ -97,7 +97,7 @@ TEST(UnregisteredClip, isRefusedByAStrictJob) {
     job.strict = true;
     importSequence(readTumSequence(clip), pinhole(603, 603, 325, 235), job.rawlog, {});
     EXPECT_THAT(problemOf([&] { runSlamJob(job); }),
-                testing::HasSubstr("never registered to colour"));
+                testing::HasSubstr("never registered to color"));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-/** The whole chain on synthetic sequences, whose truth is exact: rgbd-synth, rgbd-import, rgbd-slam,
- *  rgbd-eval. */
+/** The whole chain on synthetic sequences, whose truth is exact: rgbd-synth, rgbd-import,
+ * rgbd-slam, rgbd-eval. */
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -57,11 +57,11 @@ std::size_t countOf(const std::string& rawlog) {
 TEST_F(FaultBag, aRobotWithoutCameraIsToldWhatItHas) {
     if (!fs::exists(robotLog("rl_test1.bag"))) GTEST_SKIP() << "no robot logs in $RGBD_DATA";
     const ProgramResult result = import(robotLog("rl_test1.bag"));
-    expectRefused(result, "holds no colour images; its topics: ");
+    expectRefused(result, "holds no color images; its topics: ");
     EXPECT_THAT(result.err,
                 AllOf(HasSubstr("(sensor_msgs/Imu, 11865)"), HasSubstr("(nav_msgs/Odometry, 3952)"),
                       HasSubstr("(sensor_msgs/NavSatFix, 989)"), HasSubstr("--no-camera")));
-    expectRefused(import(robotLog("embag_test.bag")), "holds no colour images; its topics: ");
+    expectRefused(import(robotLog("embag_test.bag")), "holds no color images; its topics: ");
 }
 
 TEST_F(FaultBag, everyReadingOfARobotWithoutCameraIsKept) {

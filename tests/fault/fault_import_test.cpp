@@ -190,9 +190,9 @@ TEST_F(FaultImport, eightBitDepth) {
     expectRefused(import("--skip-damaged"), "is 8-bit");
 }
 
-TEST_F(FaultImport, colourAsDepth) {
+TEST_F(FaultImport, colorAsDepth) {
     cv::imwrite(depthPath(0), small_sequence::color(0));
-    expectRefused(import(), "is a colour image");
+    expectRefused(import(), "is a color image");
 }
 
 TEST_F(FaultImport, floatDepth) {

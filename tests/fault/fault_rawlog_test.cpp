@@ -263,7 +263,7 @@ TEST_F(FaultRawlog, framesWithoutTimestamps) {
 }
 
 /** Files that an import with --compact copies as they are. */
-TEST_F(FaultRawlog, colorFilesThatAreGreyDeepOrTransparent) {
+TEST_F(FaultRawlog, colorFilesThatAreGrayDeepOrTransparent) {
     std::vector<std::string> files;
     for (std::size_t i = 0; i < film_.size(); ++i) {
         cv::Mat pixels = film_[i]->intensityImage.asCvMat<cv::Mat>(mrpt::img::DEEP_COPY);
@@ -401,7 +401,7 @@ TEST_F(FaultRawlog, depthUnitThatIsNone) {
     expectRefused("depth unit");
 }
 
-/** \return three frames of that size, grey squares 1 m away */
+/** \return three frames of that size, gray squares 1 m away */
 Film filmOfSize(int width, int height) {
     CameraSetup setup;
     setup.camera = Camera{width, height, 0.8 * width, 0.8 * width, width / 2.0, height / 2.0, {}};

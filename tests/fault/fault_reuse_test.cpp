@@ -115,7 +115,7 @@ TEST_P(FaultReuse, killedAtAnyMoment) {
 INSTANTIATE_TEST_SUITE_P(
     Works, FaultReuse,
     testing::Values(
-        Work{"Localised", "rgbd-slam", slam("%second.rawlog -o OUT --localize --map %map"), ""},
+        Work{"Localized", "rgbd-slam", slam("%second.rawlog -o OUT --localize --map %map"), ""},
         Work{"Extended", "rgbd-slam", slam("%second.rawlog -o OUT --extend --map %map"), ""},
         Work{"ExtendedInItsPlace", "rgbd-slam", slam("%second.rawlog -o OUT --extend --map OUT"),
              ""},

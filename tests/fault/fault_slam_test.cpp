@@ -141,21 +141,21 @@ TEST_F(FaultSlam, cutRawlogKeepsWhatCameBeforeAndSaysWhere) {
 TEST_F(FaultSlam, badMapsAreRefusedBeforeAnythingIsWritten) {
     ASSERT_EQ(slam().exit_code, 0);
     const std::string map = out_ + "/map.sparse", whole = readText(map), out2 = folder_ / "out2";
-    const auto localise = [&](const std::string& folder) {
+    const auto localize = [&](const std::string& folder) {
         return runProgram("rgbd-slam", arguments(default_ini, rawlog_, out2) + "--localize --map " +
                                            inQuotes(folder));
     };
-    EXPECT_EQ(localise(out_).exit_code, 0);
+    EXPECT_EQ(localize(out_).exit_code, 0);
     fs::remove_all(out2);
-    expectRefused(localise(folder_ / "nowhere"), "nowhere/map.sparse");
+    expectRefused(localize(folder_ / "nowhere"), "nowhere/map.sparse");
     cutFile(map, 0.7);
-    expectRefused(localise(out_), "cut off or damaged");
+    expectRefused(localize(out_), "cut off or damaged");
     folder_.write("out/map.sparse", "RGBDMAP\n\7" + whole.substr(9));
-    expectRefused(localise(out_), "version 7");
+    expectRefused(localize(out_), "version 7");
     std::string flipped = whole;
     flipped[5000] = static_cast<char>(flipped[5000] ^ 1);
     folder_.write("out/map.sparse", flipped);
-    expectRefused(localise(out_), "its check sum is wrong");
+    expectRefused(localize(out_), "its check sum is wrong");
     EXPECT_FALSE(fs::exists(out2));
 }
 

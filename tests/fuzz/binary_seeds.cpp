@@ -11,7 +11,7 @@
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
-#include "rgbd_graphslam/graphslam/sparse_map_file.h"
+#include "rgbd_graphslam/job/sparse_map_file.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 
 namespace rgbd_graphslam {

@@ -1,6 +1,6 @@
 /** A run that goes on from any state of a checkpoint: what is accepted must carry it to the end. */
-#include "../../libs/graphslam/src/checkpoint.h"
-#include "../../libs/graphslam/src/run_checkpoint.h"
+#include "../../libs/job/src/checkpoint.h"
+#include "../../libs/job/src/run_checkpoint.h"
 #include "../support/textured_room.h"
 #include "../support/tum_folder.h"
 #include "fuzz_targets.h"
@@ -55,7 +55,7 @@ const SlamJob& smallJob() {
         job.options.slam.features.levels = 3;
         job.options.slam.tracker.min_inliers = 12;
         job.options.slam.keyframes.max_rotation_rad = 0.08;
-        job.options.slam.recovery.new_part_after = 2;
+        job.options.slam.recovery.new_submap_after = 2;
         job.options.slam.recovery.fewest_keypoints = 40;
         writeFilm(job.rawlog);
         return job;

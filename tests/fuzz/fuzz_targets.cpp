@@ -17,7 +17,7 @@
 #include "rgbd_graphslam/evaluation/consistency.h"
 #include "rgbd_graphslam/export/pose_graph_text.h"
 #include "rgbd_graphslam/features/feature_options.h"
-#include "rgbd_graphslam/graphslam/sparse_map_file.h"
+#include "rgbd_graphslam/job/sparse_map_file.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 #include "rgbd_graphslam/slam/slam_options.h"
 

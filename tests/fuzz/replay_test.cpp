@@ -7,7 +7,7 @@
 #include <random>
 #include <thread>
 
-#include "../../libs/graphslam/src/checkpoint.h"
+#include "../../libs/job/src/checkpoint.h"
 #include "../support/tum_folder.h"
 #include "fuzz_targets.h"
 

@@ -18,7 +18,7 @@ function(expect_refused layer include)
 endfunction()
 
 expect_refused(core "\"rgbd_graphslam/geometry/se3.h\"")
-expect_refused(mapping "\"rgbd_graphslam/graphslam/slam_job.h\"")
+expect_refused(mapping "\"rgbd_graphslam/job/slam_job.h\"")
 expect_refused(slam "\"rgbd_graphslam/dataset/rawlog_reader.h\"")
 expect_refused(features "<mrpt/obs/CObservation3DRangeScan.h>")
 expect_refused(slam "<fstream>")

@@ -15,7 +15,7 @@ set(ENV{XDG_CONFIG_HOME} ${SCRATCH}/config)
 execute_process(COMMAND ${SLAM} --quiet --max-frames 40 ${INI} ${RAWLOG} -o ${SCRATCH}/out
     COMMAND_ERROR_IS_FATAL ANY OUTPUT_QUIET)
 
-# One colour packs into a few kB; a room or an image does not.
+# One color packs into a few kB; a room or an image does not.
 function(expect_picture file)
     if(NOT EXISTS ${file})
         message(FATAL_ERROR "${file} was not written")

@@ -11,7 +11,7 @@
 
 namespace rgbd_graphslam {
 
-/** Images are given; colour becomes PNG, so that pixels can be compared, depth is packed by zlib.
+/** Images are given; color becomes PNG, so that pixels can be compared, depth is packed by zlib.
  */
 struct SmallSens {
     /** CV_8UC3 and CV_16UC1 of one size. */

@@ -44,7 +44,7 @@ inline void cutFile(const std::string& path, double share) {
     std::filesystem::resize_file(path, static_cast<std::uintmax_t>(size * share));
 }
 
-/** Frames of 32x24 pixels: colour stamps at 30 Hz, each depth stamp 5.5 ms later. */
+/** Frames of 32x24 pixels: color stamps at 30 Hz, each depth stamp 5.5 ms later. */
 namespace small_sequence {
 
 constexpr int width = 32, height = 24;

@@ -39,7 +39,7 @@ void takeLine(Line& line, const std::string& folder, RgbdSequence& sequence,
     second.file = own_stamp ? nextFile(line) : word;
     if (!line.rest().empty()) line.refuse("too many values", form);
     if (speaksOfDepth(first.file) == speaksOfDepth(second.file)) {
-        line.refuse("cannot tell colour from depth: one of '" + first.file + "' and '" +
+        line.refuse("cannot tell color from depth: one of '" + first.file + "' and '" +
                         second.file + "' must have depth in its name",
                     form);
     }

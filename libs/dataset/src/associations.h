@@ -1,4 +1,4 @@
-/** Lists that name colour and depth of each frame in one line. */
+/** Lists that name color and depth of each frame in one line. */
 #pragma once
 #include <string>
 
@@ -10,7 +10,7 @@ namespace rgbd_graphslam {
  *  none. */
 std::string associationsIn(const std::string& folder);
 
-/** Reads `stamp file stamp file` or `stamp file file` lines, colour or depth first, as the folders'
+/** Reads `stamp file stamp file` or `stamp file file` lines, color or depth first, as the folders'
  *  names in the files tell. Stamps as in image_list.h, or frame numbers, taken at number / rate_hz.
  *  \throws Error naming file and line that do not have this form */
 RgbdSequence readAssociations(const std::string& folder, double rate_hz);

@@ -18,7 +18,7 @@ Camera cameraOf(const ros::CameraInfo& info, bool rectified, double& worst_px);
 /** Whether an image topic's images have been rectified, by its name. */
 bool isRectified(const std::string& topic);
 
-/** Depth's pose in the colour camera's optical frame, from /tf_static, the extrinsics that
+/** Depth's pose in the color camera's optical frame, from /tf_static, the extrinsics that
  *  RealSense's driver publishes, or those of librealsense's recorder. */
 std::optional<SE3> colorFromDepth(const BagSurvey& survey, const ImageChoice& images);
 
@@ -29,7 +29,7 @@ bool namesBase(const std::string& frame);
  *  there is none. */
 std::string baseOf(const FrameTree& frames, const std::string& frame);
 
-/** Axes of the IMU in the colour camera's optical frame, from /tf_static or librealsense's
+/** Axes of the IMU in the color camera's optical frame, from /tf_static or librealsense's
  *  recorder, else by the name of an optical frame. */
 std::optional<SE3> colorFromImu(const BagSurvey& survey, const ImageTopic& color,
                                 const ImuTopic& imu);

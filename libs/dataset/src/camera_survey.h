@@ -21,7 +21,7 @@ struct CameraSurvey {
     std::optional<double> first_stamp_s;
 };
 
-/** Reads the whole rawlog once. Range scans without a colour image are no camera, unless there is
+/** Reads the whole rawlog once. Range scans without a color image are no camera, unless there is
  *  nothing else.
  *  \throws Error when it is missing, damaged or without such frames */
 CameraSurvey surveyCameras(const std::string& rawlog_path);

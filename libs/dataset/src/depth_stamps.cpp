@@ -15,7 +15,7 @@ constexpr long long million = 1000000;
 std::string toIniText(const DepthStamps& stamps) {
     if (stamps.empty()) return "";
     std::string text = std::string(header) +
-                       "\n; stamp of a frame (its colour image) = stamp of its depth image, UNIX "
+                       "\n; stamp of a frame (its color image) = stamp of its depth image, UNIX "
                        "time in s; equal where not listed\n";
     char line[128];
     for (const auto& [color_us, depth_us] : stamps) {

@@ -35,12 +35,12 @@ void findJumps(int length, int gap, At at, Take take) {
 
 cv::Mat1f edgeContrast(const cv::Mat& color, int width) {
     const double scale = std::min(1.0, static_cast<double>(width) / color.cols);
-    cv::Mat reduced, grey;
+    cv::Mat reduced, gray;
     cv::resize(color, reduced, {}, scale, scale, cv::INTER_AREA);
-    cv::cvtColor(reduced, grey, cv::COLOR_BGR2GRAY);
+    cv::cvtColor(reduced, gray, cv::COLOR_BGR2GRAY);
     cv::Mat1f across, down, strength, around;
-    cv::Sobel(grey, across, CV_32F, 1, 0);
-    cv::Sobel(grey, down, CV_32F, 0, 1);
+    cv::Sobel(gray, across, CV_32F, 1, 0);
+    cv::Sobel(gray, down, CV_32F, 0, 1);
     cv::magnitude(across, down, strength);
     strength = cv::min(strength, strongest_edge * cv::mean(strength)[0]);
     cv::GaussianBlur(strength, strength, {3, 3}, 0);

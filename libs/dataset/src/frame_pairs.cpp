@@ -75,7 +75,7 @@ void refuseLoss(std::size_t pairs, const RgbdSequence& sequence, const ImportOpt
     if (2 * pairs >= possible) return;
     const std::size_t missing = report.color.missing + report.depth.missing;
     throw Error("only " + std::to_string(pairs) + " of " + std::to_string(possible) +
-                    " frames of '" + sequence.folder + "' have colour and depth within " +
+                    " frames of '" + sequence.folder + "' have color and depth within " +
                     shortest(options.max_difference_s) + " s of each other" +
                     (missing > 0 ? " (" + std::to_string(missing) + " listed files are missing)"
                                  : std::string()),
@@ -100,7 +100,7 @@ std::vector<FramePair> pairUp(const RgbdSequence& sequence, const ImportOptions&
     tallyLeftOver(color_stamps, color_paired, depth_stamps, options.max_difference_s, report.color);
     tallyLeftOver(depth_stamps, depth_paired, color_stamps, options.max_difference_s, report.depth);
     if (pairs.empty()) {
-        throw Error("no colour and depth image of '" + sequence.folder + "' are within " +
+        throw Error("no color and depth image of '" + sequence.folder + "' are within " +
                         shortest(options.max_difference_s) + " s of each other" +
                         missingText(report),
                     "check rgb.txt and depth.txt, or raise --max-difference");

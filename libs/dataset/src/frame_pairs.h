@@ -1,4 +1,4 @@
-/** Which colour image goes with which depth image. */
+/** Which color image goes with which depth image. */
 #pragma once
 #include <vector>
 

@@ -107,11 +107,11 @@ void FrameSource::fitDepth(const std::string& file, cv::Size size) {
         depth_setup_->camera = fitted(depth_setup_->camera, depth_setup_->name, file, size, notes_);
     } else if (size != color_size) {
         if (!sameAspect(size, color_size)) {
-            throw Error("'" + file + "' has " + sizeText(size) + " pixels, colour " +
+            throw Error("'" + file + "' has " + sizeText(size) + " pixels, color " +
                             sizeText(color_size) + ", which is no common aspect ratio",
                         "give the depth camera's calibration with --register camera_depth.ini");
         }
-        notes_.push_back("depth of " + sizeText(size) + " pixels is resampled to colour's " +
+        notes_.push_back("depth of " + sizeText(size) + " pixels is resampled to color's " +
                          sizeText(color_size) + ", each pixel taking the nearest reading");
     }
 }

@@ -1,4 +1,4 @@
-/** The images of an import, brought to one size and to the colour camera's view. */
+/** The images of an import, brought to one size and to the color camera's view. */
 #pragma once
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -23,7 +23,7 @@ struct LoadedFrame {
 class FrameSource {
   public:
     /** Looks at the sizes of the first images and at some depth images' readings.
-     *  \throws Error when calibration, colour and depth do not fit each other */
+     *  \throws Error when calibration, color and depth do not fit each other */
     FrameSource(const RgbdSequence& sequence, const CameraSetup& setup,
                 const ImportOptions& options, const std::vector<FramePair>& pairs);
 

@@ -31,7 +31,7 @@ bool startsWith(const Bytes& bytes, const Bytes& mark) {
     return bytes.size() >= mark.size() && std::equal(mark.begin(), mark.end(), bytes.begin());
 }
 
-/** The decoder fills what a cut JPEG file lacks with grey and calls it a success. Cameras pad their
+/** The decoder fills what a cut JPEG file lacks with gray and calls it a success. Cameras pad their
  *  files, hence the search. */
 bool isCutJpeg(const Bytes& bytes) {
     if (!startsWith(bytes, jpeg_start)) return false;
@@ -63,7 +63,7 @@ DecodedImage decoded(const std::string& path, const Bytes& bytes, int flags) {
 }
 
 std::string kindOf(const cv::Mat& pixels) {
-    if (pixels.channels() > 1) return "a colour image";
+    if (pixels.channels() > 1) return "a color image";
     switch (pixels.depth()) {
         case CV_8U:
             return "8-bit";

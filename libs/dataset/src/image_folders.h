@@ -1,4 +1,4 @@
-/** A folder of colour and one of depth images, without lists. */
+/** A folder of color and one of depth images, without lists. */
 #pragma once
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@ namespace rgbd_graphslam {
 
 extern const std::vector<std::string> color_endings, depth_endings;
 
-/** The first subfolder of `folder` that is named as one for colour images are: color, rgb, image,
+/** The first subfolder of `folder` that is named as one for color images are: color, rgb, image,
  *  images; empty when there is none. */
 std::string colorFolderIn(const std::string& folder);
 

@@ -131,12 +131,12 @@ void unifyStamps(RgbdSequence& sequence, bool images_in_seconds) {
     const StampUnit unit =
         images_in_seconds ? stampUnits().front() : unitOfStamps(stampsOf(sequence.color));
     if (unit.seconds != 1) {
-        sequence.notes.push_back(std::string("stamps of the colour images look like ") + unit.name +
+        sequence.notes.push_back(std::string("stamps of the color images look like ") + unit.name +
                                  ": taken as such");
         scale(sequence.color, unit);
     }
     const auto stamps = stampsOf(sequence.color);
-    checkRange("colour images", stamps);
+    checkRange("color images", stamps);
     const auto [first, last] = std::minmax_element(stamps.begin(), stamps.end());
     const auto beside = [&, first_s = *first, last_s = *last](const char* list, auto& entries) {
         unifyBeside(list, first_s, last_s, entries, sequence.notes);

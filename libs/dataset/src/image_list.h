@@ -27,7 +27,7 @@ void readMotionFiles(const std::string& folder, RgbdSequence& sequence);
 
 /** Turns all stamps to seconds: images by magnitude and step, the other lists so that they overlap
  *  the images. Says so in the sequence's notes.
- *  \param images_in_seconds colour and depth are already
+ *  \param images_in_seconds color and depth are already
  *  \throws Error naming the list with a stamp that is no time in any unit */
 void unifyStamps(RgbdSequence& sequence, bool images_in_seconds = false);
 

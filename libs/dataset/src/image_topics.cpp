@@ -37,13 +37,13 @@ bool isDepth(const ImageTopic& image) {
 
 bool isColor(const ImageTopic& image) {
     if (isDepth(image) || image.is_compressed_depth) return false;
-    return ros::isColorEncoding(image.encoding) || ros::isGreyEncoding(image.encoding) ||
+    return ros::isColorEncoding(image.encoding) || ros::isGrayEncoding(image.encoding) ||
            (image.is_compressed && !ros::isDepthEncoding(image.encoding));
 }
 
 int rankOfColor(const ImageTopic& image) {
     int rank = 0;
-    if (!ros::isGreyEncoding(image.encoding)) rank += 8;
+    if (!ros::isGrayEncoding(image.encoding)) rank += 8;
     if (isNamedOtherwise(image.name)) rank -= 16;
     if (namesAny(image.name, {"depth"})) rank -= 4;
     if (namesAny(image.name, {"color", "rgb"})) rank += 2;
@@ -157,7 +157,7 @@ ImageChoice chooseImages(const BagSurvey& survey, const std::string& bag,
                          const std::string& color_topic, const std::string& depth_topic) {
     const ImageTopic* color = color_topic.empty() ? bestOf(survey.images, isColor, rankOfColor)
                                                   : &topicNamed(survey, bag, color_topic);
-    if (!color) refuse(survey, bag, "colour");
+    if (!color) refuse(survey, bag, "color");
     const auto rank = [&](const ImageTopic& depth) { return rankOfDepth(survey, *color, depth); };
     const ImageTopic* depth = depth_topic.empty() ? bestOf(survey.images, isDepth, rank)
                                                   : &topicNamed(survey, bag, depth_topic);

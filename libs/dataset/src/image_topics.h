@@ -8,7 +8,7 @@
 
 namespace rgbd_graphslam {
 
-/** Colour and depth of one camera. */
+/** Color and depth of one camera. */
 struct ImageChoice {
     ImageTopic color, depth;
 };
@@ -17,10 +17,10 @@ struct ImageChoice {
  *  recorded; else one for the same frame. Calibrations for images of another size do not count. */
 std::optional<ros::CameraInfo> cameraInfoOf(const BagSurvey& survey, const ImageTopic& image);
 
-/** Whether depth has been registered to colour, by the topic's name or by equal calibrations. */
+/** Whether depth has been registered to color, by the topic's name or by equal calibrations. */
 bool isRegistered(const BagSurvey& survey, const ImageTopic& color, const ImageTopic& depth);
 
-/** Colour before grey, visible light before infrared, depth registered to colour before raw, raw
+/** Color before gray, visible light before infrared, depth registered to color before raw, raw
  *  pixels before compressed ones, the first recorded before others.
  *  \param color_topic, depth_topic names that are asked for, or empty
  *  \throws Error that lists the recording's topics when a topic is missing */

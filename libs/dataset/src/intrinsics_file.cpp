@@ -80,7 +80,7 @@ bool isCamera(const Json& node) {
                                 (node.contains("intrinsics") && node["intrinsics"].is_array()));
 }
 
-/** The calibration in a tree: here, in the branch named for colour, or in the first that has one.
+/** The calibration in a tree: here, in the branch named for color, or in the first that has one.
  */
 const Json* cameraIn(const Json& node, int levels = 4) {
     if (isCamera(node)) return &node;

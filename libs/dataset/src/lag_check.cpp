@@ -17,7 +17,7 @@ constexpr double longest_s = 0.75;
 constexpr double least_significance = 4, least_share = 0.75;
 constexpr double least_agreement = 3;  // standard deviations a frame
 /** Share of the agreement that may be left without lag. Steady motion past things whose outlines
- * have colour edges beside them gains, too, but less. */
+ * have color edges beside them gains, too, but less. */
 constexpr double most_left = 0.65;
 
 /** Small lags one by one, larger ones with gaps. */

@@ -9,7 +9,7 @@
 
 namespace rgbd_graphslam {
 
-/** One recorded message, still as ROS serialised it; all of it belongs to the source. */
+/** One recorded message, still as ROS serialized it; all of it belongs to the source. */
 struct RecordedMessage {
     const std::string& topic;
     /** As ROS 1 writes it, e.g. "sensor_msgs/Image". */

@@ -62,7 +62,7 @@ bool readPose(const std::string& path, SE3& T_world_cam) {
         throw Error("'" + path + "' is no pose, its first columns are no rotation",
                     "a pose is a 4x4 matrix, camera to world");
     }
-    T_world_cam = {orthonormalised(R), {m[3], m[7], m[11]}};
+    T_world_cam = {orthonormalized(R), {m[3], m[7], m[11]}};
     return true;
 }
 

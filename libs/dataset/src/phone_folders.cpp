@@ -87,7 +87,7 @@ std::string metadataIn(const std::string& folder) {
 
 void refuseVideo(const std::string& folder) {
     if (!colorFolderIn(folder).empty()) return;
-    throw Error("the colour images of '" + folder + "' are still a video, rgb.mp4",
+    throw Error("the color images of '" + folder + "' are still a video, rgb.mp4",
                 "extract them: cd '" + folder +
                     "' && mkdir rgb && ffmpeg -i rgb.mp4 -vsync 0 -start_number 0 rgb/%06d.png");
 }
@@ -107,7 +107,7 @@ RgbdSequence readStrayScanner(const std::string& folder) {
     sequence.color = stampedBy(stamps, filesByNumber(folder, colorFolderIn(folder), color_endings));
     sequence.depth = stampedBy(stamps, filesByNumber(folder, "depth", depth_endings));
     if (sequence.color.empty() || sequence.depth.empty()) {
-        throw Error("no colour and depth image of '" + folder + "' has a number in odometry.csv",
+        throw Error("no color and depth image of '" + folder + "' has a number in odometry.csv",
                     "number the images as odometry.csv does, from 000000 on");
     }
     if (fs::is_directory(fs::path(folder) / "confidence")) {

@@ -9,7 +9,7 @@ namespace rgbd_graphslam {
 /** Whether a folder holds what Stray Scanner writes: odometry.csv, camera_matrix.csv and depth/. */
 bool isStrayScanner(const std::string& folder);
 
-/** Colour from rgb/ (frames extracted from rgb.mp4), small depth in mm, confidence images, stamps
+/** Color from rgb/ (frames extracted from rgb.mp4), small depth in mm, confidence images, stamps
  *  from odometry.csv (`timestamp, frame, x, y, z, qx, qy, qz, qw`), the 3x3 camera_matrix.csv. The
  *  phone's own poses are an estimate and no ground truth; the axes of imu.csv are not documented:
  *  both are left out, which the notes say.

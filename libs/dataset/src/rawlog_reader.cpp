@@ -87,7 +87,8 @@ class RawlogReader::Implementation {
     }
 
     [[noreturn]] void refuse(const std::string& why) const {
-        throw Error("'" + path_ + "' " + why, "give a rawlog of MRPT, or make one with rgbd-import");
+        throw Error("'" + path_ + "' " + why,
+                    "give a rawlog of MRPT, or make one with rgbd-import");
     }
 
     /** \return false at the end of the file */

@@ -13,8 +13,8 @@ namespace rgbd_graphslam {
  *    std::bad_alloc instead;
  *  - MRPT's reading of texts and plain lists, which takes as much memory as a length says before it
  *    looks for the contents, takes it as they come;
- *  - CObservation3DRangeScan's making room for points, which fills it before it looks for them, keeps
- *    to the limit, too;
+ *  - CObservation3DRangeScan's making room for points, which fills it before it looks for them,
+ * keeps to the limit, too;
  *  - jpeg_std_error, with which libjpeg ends the process at a damaged image, sets up a
  *    std::runtime_error instead (OpenCV goes on to set its own way). */
 class MemoryLimit {

@@ -34,15 +34,14 @@ constexpr double least_gain = 0.05, least_significance = 2.5, least_agreement = 
 std::string toText(const Misregistration& found, double fx_px) {
     char text[240];
     if (found.isScaled()) {
-        std::snprintf(
-            text, sizeof text,
-            "depth seems to be %.2f times as large about the image center as it should: "
-            "it was probably never registered to colour (focal length of the depth camera "
-            "about %.0f px, of the colour camera %.0f px)",
-            found.scale, found.scale * fx_px, fx_px);
+        std::snprintf(text, sizeof text,
+                      "depth seems to be %.2f times as large about the image center as it should: "
+                      "it was probably never registered to color (focal length of the depth camera "
+                      "about %.0f px, of the color camera %.0f px)",
+                      found.scale, found.scale * fx_px, fx_px);
     } else {
         std::snprintf(text, sizeof text,
-                      "depth seems shifted against colour by %.0f px to the right and %.0f px down",
+                      "depth seems shifted against color by %.0f px to the right and %.0f px down",
                       found.shift_px.x(), found.shift_px.y());
     }
     return text;

@@ -39,7 +39,7 @@ void checkContents(const CObservation3DRangeScan& observation) {
         !isFlag(observation.range_is_depth)) {
         refuse(observation, "damaged: a flag is neither yes nor no");
     }
-    if (!observation.hasIntensityImage) refuse(observation, "no colour image");
+    if (!observation.hasIntensityImage) refuse(observation, "no color image");
     if (!observation.hasRangeImage) refuse(observation, "no depth image");
     if (!observation.range_is_depth) refuse(observation, "ranges along rays instead of depth");
 }
@@ -89,10 +89,10 @@ cv::Mat sharedDepth(const CObservation3DRangeScan& observation) {
                    const_cast<std::uint16_t*>(ranges.data()));
 }
 
-/** The formats that images stored outside a rawlog may have, as 8-bit BGR or grey. */
-cv::Mat asColorOrGrey(const CObservation3DRangeScan& observation, cv::Mat pixels) {
+/** The formats that images stored outside a rawlog may have, as 8-bit BGR or gray. */
+cv::Mat asColorOrGray(const CObservation3DRangeScan& observation, cv::Mat pixels) {
     if (pixels.depth() == CV_16U) pixels.convertTo(pixels, CV_8U, 1 / 256.0);
-    if (pixels.depth() != CV_8U) refuse(observation, "its colour image is of an unknown kind");
+    if (pixels.depth() != CV_8U) refuse(observation, "its color image is of an unknown kind");
     if (pixels.channels() == 4) cv::cvtColor(pixels, pixels, cv::COLOR_BGRA2BGR);
     return pixels;
 }
@@ -172,7 +172,7 @@ std::shared_ptr<const DepthRegistration> registrationBy(Registrar wanted) {
         last = std::move(wanted);
         static std::once_flag said;
         std::call_once(said, [] {
-            sayInfo("the rawlog's depth is of a camera of its own: registered to colour");
+            sayInfo("the rawlog's depth is of a camera of its own: registered to color");
         });
     }
     return last.registration;
@@ -190,11 +190,11 @@ void checkDepthCamera(const CObservation3DRangeScan& observation, const Registra
     const double turn = std::acos(std::clamp((T.R.trace() - 1) / 2, -1.0, 1.0));
     if (!(T.t.norm() < farthest_apart_m) || !(turn < widest_turn)) {
         refuse(observation,
-               "depth is of another camera, whose pose beside the colour camera is implausible");
+               "depth is of another camera, whose pose beside the color camera is implausible");
     }
 }
 
-/** Depth as the colour camera would see it; the very same where one camera took both. */
+/** Depth as the color camera would see it; the very same where one camera took both. */
 cv::Mat registeredDepth(const CObservation3DRangeScan& observation, const cv::Mat& depth,
                         cv::Size color_size) {
     Registrar cameras;
@@ -226,19 +226,19 @@ RgbdImage colorAndDepth(const CObservation3DRangeScan::Ptr& observation) {
     image.depth_unit_m = observation->rangeUnits;
     image.depth = sharedDepth(*observation);
     image.owner = observation;
-    const cv::Mat pixels = asColorOrGrey(
+    const cv::Mat pixels = asColorOrGray(
         *observation, observation->intensityImage.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY));
     image.depth = registeredDepth(*observation, image.depth, pixels.size());
     if (pixels.size() != image.depth.size()) {
-        refuse(*observation, "colour and depth differ in size");
+        refuse(*observation, "color and depth differ in size");
     }
-    (pixels.channels() == 1 ? image.grey : image.color) = pixels;
+    (pixels.channels() == 1 ? image.gray : image.color) = pixels;
     return image;
 }
 
 RgbdImage toRgbdImage(const CObservation3DRangeScan::Ptr& observation) {
     RgbdImage image = colorAndDepth(observation);
-    if (image.grey.empty()) cv::cvtColor(image.color, image.grey, cv::COLOR_BGR2GRAY);
+    if (image.gray.empty()) cv::cvtColor(image.color, image.gray, cv::COLOR_BGR2GRAY);
     return image;
 }
 

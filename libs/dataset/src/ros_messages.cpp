@@ -153,7 +153,7 @@ SE3 readExtrinsics(WireReader in) {
         for (int row = 0; row < 3; ++row) T.R(row, column) = in.number<double>();
     }
     T.t = readVector(in);
-    T.R = orthonormalised(T.R);
+    T.R = orthonormalized(T.R);
     return T;
 }
 

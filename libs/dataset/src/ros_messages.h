@@ -80,7 +80,7 @@ struct NavSatFix {
     double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;
 };
 
-/** Each reads a message as serialised, from behind the encapsulation.
+/** Each reads a message as serialized, from behind the encapsulation.
  *  \throws std::out_of_range when the bytes end too early */
 Image readImage(WireReader in);
 CompressedImage readCompressedImage(WireReader in);

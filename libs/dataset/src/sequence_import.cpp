@@ -35,7 +35,7 @@ DepthStamps depthStampsOf(const std::vector<FramePair>& pairs) {
     return stamps;
 }
 
-/** Over a sequence, so many frames are looked at for how depth lies to colour. */
+/** Over a sequence, so many frames are looked at for how depth lies to color. */
 constexpr std::size_t frames_checked = 20;
 
 /** What is wrong with depth's unit, and which would be plausible; empty when nothing is. */
@@ -74,8 +74,8 @@ std::string registrationText(const Misregistration& found, double fx_px, bool is
 std::string lagText(const DepthLag& lag, double offset_s) {
     char text[240];
     std::snprintf(text, sizeof text,
-                  "depth seems to come %.0f ms %s than colour (%d frame%s): its outlines fit the "
-                  "colour images of then; correct its stamps with --depth-offset %.3f",
+                  "depth seems to come %.0f ms %s than color (%d frame%s): its outlines fit the "
+                  "color images of then; correct its stamps with --depth-offset %.3f",
                   1e3 * std::abs(lag.seconds), lag.seconds > 0 ? "later" : "earlier",
                   std::abs(lag.frames), std::abs(lag.frames) == 1 ? "" : "s",
                   offset_s - lag.seconds);
@@ -270,8 +270,8 @@ std::string toText(const ImportReport& report) {
     text += line;
     if (report.damaged > 0) text += "; " + std::to_string(report.damaged) + " left out as damaged";
     text += "\ndepth: " + toText(report.depth_summary);
-    text += "\n" + tallyText("colour", "depth", report.color) +
-            tallyText("depth", "colour", report.depth);
+    text += "\n" + tallyText("color", "depth", report.color) +
+            tallyText("depth", "color", report.depth);
     std::snprintf(line, sizeof(line),
                   "%zu IMU readings, %zu odometry readings, %zu of other sensors, "
                   "%zu ground truth poses\nimported in %.1f s, %.0f frames/s\n",

@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 using namespace mrpt::obs;
 namespace {
 
-/** The fewest digits of units a metre that give the same float back as metres a unit. */
+/** The fewest digits of units a meter that give the same float back as meters a unit. */
 double unitsAMetre(float metres_a_unit) {
     const double exact = 1 / static_cast<double>(metres_a_unit);
     for (double grain = 1; grain > 1e-9; grain /= 10) {
@@ -47,7 +47,7 @@ void writePng(const fs::path& path, const cv::Mat& pixels) {
     }
 }
 
-/** Colour goes out as the file it came in as, where there is one. */
+/** Color goes out as the file it came in as, where there is one. */
 std::string originalColorFile(const CObservation3DRangeScan& frame) {
     const auto& image = frame.intensityImage;
     return image.isExternallyStored() ? image.getExternalStorageFileAbsolutePath() : "";
@@ -65,7 +65,7 @@ void writeImages(const CObservation3DRangeScan::Ptr& frame, const cv::Size& size
                     "a sequence has images of one size; export parts with --from and --to");
     }
     if (original.empty()) {
-        writePng(color_path, image.color.empty() ? image.grey : image.color);
+        writePng(color_path, image.color.empty() ? image.gray : image.color);
     } else {
         fs::copy_file(original, color_path);
     }
@@ -206,7 +206,7 @@ class Export {
             setup_.T_base_sensor = T_base_cam_ * T_optical_from_mrpt;
             report_.notes.push_back(
                 "the rawlog gives the depth camera a calibration of its own: depth is exported "
-                "registered to colour");
+                "registered to color");
         }
     }
 
@@ -243,7 +243,7 @@ class Export {
             char text[160];
             std::snprintf(
                 text, sizeof text,
-                "colour and depth are up to %.3f s apart: import with --max-difference %.3f",
+                "color and depth are up to %.3f s apart: import with --max-difference %.3f",
                 largest_difference_s_, largest_difference_s_ + 0.001);
             report_.notes.push_back(text);
         }

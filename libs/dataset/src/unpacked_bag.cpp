@@ -23,7 +23,7 @@ namespace rgbd_graphslam {
 namespace fs = std::filesystem;
 namespace {
 
-/** Units per metre of floating-point depth as it is stored: the TUM benchmark's, and ROS's for what
+/** Units per meter of floating-point depth as it is stored: the TUM benchmark's, and ROS's for what
  *  these cannot hold. */
 constexpr double fine_units = 5000, coarse_units = 1000, most_reading = 65535;
 /** A lens fit worse than this is told, px. */
@@ -97,7 +97,7 @@ class SequenceOfBag {
     RgbdSequence withCamera(const ImageChoice& images) {
         images_ = images;
         used_ = {images.color.name, images.depth.name};
-        sequence_.notes.push_back("colour: " + describe(survey_, images.color));
+        sequence_.notes.push_back("color: " + describe(survey_, images.color));
         sequence_.depth_units = depthUnitsOf(survey_, images.depth);
         setCamera();
         setDepthCamera();
@@ -152,13 +152,13 @@ class SequenceOfBag {
 
     void setDepthCamera() {
         const ImageTopic& depth = images_.depth;
-        std::string how = "registered to colour";
+        std::string how = "registered to color";
         if (!isRegistered(survey_, images_.color, depth)) {
             const auto info = cameraInfoOf(survey_, depth);
             const auto T_color_depth = colorFromDepth(survey_, images_);
             if (info && T_color_depth) {
                 placeDepthCamera(*info, *T_color_depth);
-                how = "raw, warped to colour by the recorded calibrations";
+                how = "raw, warped to color by the recorded calibrations";
             } else {
                 how = std::string("raw, and ") +
                       (info ? "the pose of its camera" : "its calibration") +
@@ -166,7 +166,7 @@ class SequenceOfBag {
             }
         }
         char units[48];
-        std::snprintf(units, sizeof units, "%g units per metre", *sequence_.depth_units);
+        std::snprintf(units, sizeof units, "%g units per meter", *sequence_.depth_units);
         sequence_.notes.push_back("depth: " + describe(survey_, depth) + ", " + units + "; " + how);
     }
 

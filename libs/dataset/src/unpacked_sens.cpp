@@ -103,7 +103,7 @@ SensHeader headerOf(SensFile& file) {
     const auto color = static_cast<ColorCompression>(header.color_compression);
     const auto depth = static_cast<DepthCompression>(header.depth_compression);
     if (color != ColorCompression::Png && color != ColorCompression::Jpeg) {
-        file.refuse("has colour images that are neither JPEG nor PNG");
+        file.refuse("has color images that are neither JPEG nor PNG");
     }
     if (depth != DepthCompression::Raw && depth != DepthCompression::Zlib) {
         file.refuse("has depth in a compression that is not read (only zlib or none)");
@@ -132,7 +132,7 @@ std::optional<SE3> poseOf(const Matrix& m) {
     const bool rotation =
         (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < 0.01 && R.determinant() > 0;
     if (!rotation) return std::nullopt;
-    return SE3{orthonormalised(R), {m[3], m[7], m[11]}};
+    return SE3{orthonormalized(R), {m[3], m[7], m[11]}};
 }
 
 cv::Mat depthOf(const SensFile& file, const SensHeader& header, const std::string& bytes) {

@@ -9,7 +9,7 @@
 #include <sstream>
 
 #include "rgbd_graphslam/core/error.h"
-#include "rgbd_graphslam/evaluation/alignment.h"
+#include "rgbd_graphslam/metrics/alignment.h"
 
 namespace rgbd_graphslam {
 namespace {

@@ -61,7 +61,7 @@ double binWidth(const std::vector<double>& errors) {
     return std::max({width, largest / 200, 1e-12});
 }
 
-/** Centre and share in percent of the bins from 0 to the largest error. */
+/** Center and share in percent of the bins from 0 to the largest error. */
 Gnuplot::Rows histogramRows(const std::vector<double>& errors, double bin_width) {
     std::vector<double> shares;
     for (const double error : errors) {

@@ -2,7 +2,7 @@
 
 #include "point_tree.h"
 #include "rgbd_graphslam/core/error.h"
-#include "rgbd_graphslam/evaluation/surface_sampling.h"
+#include "rgbd_graphslam/geometry/surface_sampling.h"
 #include "triangle_tree.h"
 
 namespace rgbd_graphslam {
@@ -13,7 +13,7 @@ using Points = std::vector<Eigen::Vector3d>;
 void check(const PlyModel& map, const MapAccuracyOptions& options) {
     if (map.vertices.empty()) throw Error("the map holds no points", "give another");
     if (!(options.completeness_distance_m > 0) || !(options.sample_spacing_m > 0)) {
-        throw Error("the distances of a map's evaluation must be positive", "give metres");
+        throw Error("the distances of a map's evaluation must be positive", "give meters");
     }
 }
 

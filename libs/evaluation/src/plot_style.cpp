@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "rgbd_graphslam/evaluation/statistics.h"
+#include "rgbd_graphslam/metrics/statistics.h"
 
 namespace rgbd_graphslam {
 namespace {

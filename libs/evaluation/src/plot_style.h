@@ -10,7 +10,7 @@ namespace rgbd_graphslam {
 /** Axes, grid and legend. */
 void setStyle(Gnuplot& plot);
 
-/** Distinct to the colour-blind as well: Okabe and Ito, "Color universal design", 2008. */
+/** Distinct to the color-blind as well: Okabe and Ito, "Color universal design", 2008. */
 std::string colorOf(std::size_t series);
 
 /** Parts of a plot command: named data drawn in one way. */

@@ -8,7 +8,7 @@
 #include "rgbd_graphslam/dataset/image_file.h"
 #include "rgbd_graphslam/evaluation/stamped_list.h"
 #include "rgbd_graphslam/geometry/associate.h"
-#include "stamps.h"
+#include "rgbd_graphslam/metrics/stamps.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -123,7 +123,7 @@ std::vector<PosedImageFiles> posedImages(const std::string& pair_list, const Tra
         std::string color, depth_stamp, depth;
         if (!(words >> color >> depth_stamp >> depth)) {
             throw Error("a line of '" + pair_list + "' has too few words: " + rest,
-                        "each must be 'stamp colour stamp depth', as rgbd-eval associate prints");
+                        "each must be 'stamp color stamp depth', as rgbd-eval associate prints");
         }
         stamps_s.push_back(stamp_s);
         images.push_back({beside(pair_list, color), beside(pair_list, depth), {}});
@@ -138,7 +138,7 @@ RgbdImage readRgbdImage(const std::string& color, const std::string& depth, doub
     image.depth_unit_m = depth_unit_m;
     if (image.depth.size() != image.color.size()) {
         throw Error("'" + depth + "' is of another size than '" + color + "'",
-                    "give colour and depth registered to it");
+                    "give color and depth registered to it");
     }
     return image;
 }

@@ -9,7 +9,7 @@
 
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/geometry/associate.h"
-#include "stamps.h"
+#include "rgbd_graphslam/metrics/stamps.h"
 
 namespace rgbd_graphslam {
 namespace {

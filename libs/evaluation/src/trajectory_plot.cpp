@@ -3,7 +3,7 @@
 
 #include "plot_style.h"
 #include "rgbd_graphslam/evaluation/plots.h"
-#include "stamps.h"
+#include "rgbd_graphslam/metrics/stamps.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -42,7 +42,7 @@ Gnuplot::Rows differenceRows(const AteResult& result, Projection project) {
     return rows;
 }
 
-/** Of everything that is drawn, in metres. */
+/** Of everything that is drawn, in meters. */
 struct Extent {
     double min_across = INFINITY, max_across = -INFINITY, min_up = INFINITY, max_up = -INFINITY;
 

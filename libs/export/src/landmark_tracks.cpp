@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "rgbd_graphslam/graphslam/sparse_map_file.h"
+#include "rgbd_graphslam/job/sparse_map_file.h"
 
 namespace rgbd_graphslam {
 namespace {

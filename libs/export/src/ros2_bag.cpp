@@ -56,7 +56,7 @@ class Ros2BagExporter : public Exporter {
     static Content read(const std::string& run_folder) {
         Content content;
         content.trajectory = readRunTrajectory(run_folder);
-        const auto localized = readLocalisedRun(run_folder);
+        const auto localized = readLocalizedRun(run_folder);
         const std::string maps = localized ? localized->map_folder : run_folder;
         const fs::path folder(maps);
         if (fs::exists(folder / "points.ply") && fs::exists(folder / "grid.yaml")) {

@@ -54,7 +54,7 @@ class Undistorter {
 cv::Mat colorOf(const RgbdImage& image) {
     if (!image.color.empty()) return image.color;
     cv::Mat color;
-    cv::cvtColor(image.grey, color, cv::COLOR_GRAY2BGR);
+    cv::cvtColor(image.gray, color, cv::COLOR_GRAY2BGR);
     return color;
 }
 
@@ -137,7 +137,7 @@ Camera undistortedCamera(const Camera& camera) {
 std::vector<NumberedKeyframe> placedKeyframes(const MapInputs& run) {
     std::vector<NumberedKeyframe> placed;
     for (int i = 0; i < static_cast<int>(run.keyframes.size()); ++i) {
-        if (!std::binary_search(run.apart.begin(), run.apart.end(), i))
+        if (!std::binary_search(run.disconnected.begin(), run.disconnected.end(), i))
             placed.push_back({i, run.keyframes[i]});
     }
     return placed;

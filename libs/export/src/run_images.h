@@ -12,7 +12,7 @@ struct RunImage {
     int number = 0;    // of the pose in the list asked for
     StampedPose pose;  // of the color image
     Camera camera;     // without distortion
-    cv::Mat3b color;   // BGR; grey where the camera is
+    cv::Mat3b color;   // BGR; gray where the camera is
     cv::Mat1w depth;   // in units of depth_unit_m; 0 = no reading
     double depth_unit_m = 0.001;
 };

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "rgbd_graphslam/evaluation/ply.h"
+#include "rgbd_graphslam/geometry/ply.h"
 
 namespace rgbd_graphslam {
 

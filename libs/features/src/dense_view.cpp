@@ -23,11 +23,11 @@ double DenseView::depthShare() const {
 
 double DenseView::contrast() const {
     double sum = 0, squares = 0;
-    for (const float g : grey) {
+    for (const float g : gray) {
         sum += g;
         squares += g * g;
     }
-    const double count = std::max<double>(1, static_cast<double>(grey.size()));
+    const double count = std::max<double>(1, static_cast<double>(gray.size()));
     return std::sqrt(std::max(0.0, squares / count - (sum / count) * (sum / count)));
 }
 
@@ -36,14 +36,14 @@ DenseView halved(const DenseView& view) {
     half.camera = shrunk(view.camera, 2);
     for (int y = 0; y < half.camera.height; ++y) {
         for (int x = 0; x < half.camera.width; ++x) {
-            float grey = 0, nearest = 0;
+            float gray = 0, nearest = 0;
             for (const int offset : {0, 1, view.camera.width, view.camera.width + 1}) {
                 const int i = 2 * y * view.camera.width + 2 * x + offset;
-                grey += 0.25f * view.grey[i];
+                gray += 0.25f * view.gray[i];
                 const float z = view.depth_m[i];
                 if (z > 0 && (nearest == 0 || z < nearest)) nearest = z;
             }
-            half.grey.push_back(grey);
+            half.gray.push_back(gray);
             half.depth_m.push_back(nearest);
         }
     }

@@ -11,10 +11,10 @@ constexpr int small_columns = 80;
 /** Readings this much farther than the nearest of a block belong to another surface. */
 constexpr double same_surface = 1.05;
 
-float meanGrey(const cv::Mat& grey, int x, int y, int block) {
+float meanGray(const cv::Mat& gray, int x, int y, int block) {
     int sum = 0;
     for (int j = y; j < y + block; ++j) {
-        const auto* row = grey.ptr<std::uint8_t>(j);
+        const auto* row = gray.ptr<std::uint8_t>(j);
         for (int i = x; i < x + block; ++i) sum += row[i];
     }
     return static_cast<float>(sum) / static_cast<float>(block * block);
@@ -51,9 +51,9 @@ DenseViewBuilder::DenseViewBuilder(const Camera& camera)
     : block_px_(std::max(1, camera.width / small_columns)), small_(shrunk(camera, block_px_)) {
     for (int y = 0; y < small_.height; ++y) {
         for (int x = 0; x < small_.width; ++x) {
-            const Eigen::Vector2d centre(x * block_px_ + 0.5 * (block_px_ - 1),
+            const Eigen::Vector2d center(x * block_px_ + 0.5 * (block_px_ - 1),
                                          y * block_px_ + 0.5 * (block_px_ - 1));
-            const Eigen::Vector2d seen = camera.hasDistortion() ? camera.distort(centre) : centre;
+            const Eigen::Vector2d seen = camera.hasDistortion() ? camera.distort(center) : center;
             const auto corner = [&](double c, int size) {
                 const double first = std::lround(c - 0.5 * (block_px_ - 1));
                 return static_cast<int>(std::clamp<double>(first, 0, size - block_px_));
@@ -67,11 +67,11 @@ DenseViewBuilder::DenseViewBuilder(const Camera& camera)
 DenseView DenseViewBuilder::build(const RgbdImage& image) const {
     DenseView view;
     view.camera = small_;
-    view.grey.resize(columns_.size());
+    view.gray.resize(columns_.size());
     view.depth_m.resize(columns_.size());
     const auto unit = static_cast<float>(image.depth_unit_m);
     for (std::size_t i = 0; i < columns_.size(); ++i) {
-        view.grey[i] = meanGrey(image.grey, columns_[i], rows_[i], block_px_);
+        view.gray[i] = meanGray(image.gray, columns_[i], rows_[i], block_px_);
         view.depth_m[i] = unit * nearestDepth(image.depth, columns_[i], rows_[i], block_px_);
     }
     return view;

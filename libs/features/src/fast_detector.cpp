@@ -57,7 +57,7 @@ RGBD_INLINE void bestArc(const Bytes (&difference)[circle_size], Bytes& best) {
     }
 }
 
-/** Every arc of nine holds two neighbouring compass points: a quick test that most pixels fail. */
+/** Every arc of nine holds two neighboring compass points: a quick test that most pixels fail. */
 RGBD_INLINE void compassBound(const Bytes& north, const Bytes& east, const Bytes& south,
                               const Bytes& west, Bytes& bound) {
     Bytes a = north > south ? north : south;
@@ -75,14 +75,14 @@ std::array<int, circle_size> circleOffsets(int step) {
     return offsets;
 }
 
-/** Scores of `lanes` pixels from `centre` on; 0 where below the threshold. */
-RGBD_INLINE void scoreBlock(const std::uint8_t* centre, const std::array<int, circle_size>& offsets,
+/** Scores of `lanes` pixels from `center` on; 0 where below the threshold. */
+RGBD_INLINE void scoreBlock(const std::uint8_t* center, const std::array<int, circle_size>& offsets,
                             const Bytes& below, std::uint8_t* scores) {
     Bytes c, brighter[circle_size], darker[circle_size];
-    load(centre, c);
+    load(center, c);
     const auto compare = [&](int i) __attribute__((always_inline)) {
         Bytes p;
-        load(centre + offsets[i], p);
+        load(center + offsets[i], p);
         brighter[i] = (p > c ? p : c) - c;
         darker[i] = c - (p < c ? p : c);
     };
@@ -123,7 +123,7 @@ void scoreRow(const std::uint8_t* row, const std::array<int, circle_size>& offse
     }
 }
 
-/** Sets the lanes whose score `s` beats all eight neighbours; ties go to the first in reading
+/** Sets the lanes whose score `s` beats all eight neighbors; ties go to the first in reading
  *  order. */
 RGBD_INLINE void peaksOf(const Bytes& s, const std::uint8_t* above, const std::uint8_t* row,
                          const std::uint8_t* under, Bytes& peaks) {

@@ -7,9 +7,9 @@ void FeatureOptions::describe(OptionVisitor& v) {
     v.integer("levels", levels, 1, 12, "", "Number of image pyramid levels");
     v.real("scale_factor", scale_factor, 1.05, 2.0, "",
            "Scale factor between consecutive pyramid levels");
-    v.integer("fast_threshold", fast_threshold, 2, 100, "grey levels",
+    v.integer("fast_threshold", fast_threshold, 2, 100, "gray levels",
               "FAST threshold in well-textured cells");
-    v.integer("fast_threshold_min", fast_threshold_min, 1, 100, "grey levels",
+    v.integer("fast_threshold_min", fast_threshold_min, 1, 100, "gray levels",
               "FAST threshold used in cells that would otherwise have no keypoints");
     v.integer("cell_px", cell_px, 8, 200, "px",
               "Size of the grid cells used to spread keypoints evenly");

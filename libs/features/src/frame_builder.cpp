@@ -61,14 +61,14 @@ FrameBuilder::FrameBuilder(const FeatureOptions& options, const Camera& camera)
       dense_(std::make_shared<DenseViewBuilder>(camera)) {}
 
 Frame FrameBuilder::build(const RgbdImage& image) const {
-    checkImage(image.grey, CV_8UC1, "grey", camera_, image.stamp_s);
+    checkImage(image.gray, CV_8UC1, "gray", camera_, image.stamp_s);
     checkImage(image.depth, CV_16UC1, "depth", camera_, image.stamp_s);
     Frame frame;
     frame.stamp_s = image.stamp_s;
     frame.view = std::async(std::launch::deferred, [dense = dense_, image] {
                      return dense->build(image);
                  }).share();
-    OrbFeatures features = extractor_.extract(image.grey);
+    OrbFeatures features = extractor_.extract(image.gray);
     frame.descriptors = std::move(features.descriptors);
     frame.patches = std::move(features.patches);
     frame.keypoints.reserve(features.corners.size());

@@ -32,25 +32,25 @@ struct Scratch {
     std::vector<std::vector<FastCorner>> cells;
 };
 
-void buildPyramid(const cv::Mat& grey, const std::vector<float>& scale, Scratch& scratch) {
+void buildPyramid(const cv::Mat& gray, const std::vector<float>& scale, Scratch& scratch) {
     const int needed = 2 * border_px + 8;
     scratch.levels.resize(scale.size());
-    const int rows = static_cast<int>(scale.size()) * grey.rows;
-    scratch.sharp_buffer.create(rows, grey.cols, CV_8UC1);
-    scratch.smooth_buffer.create(rows, grey.cols, CV_8UC1);
+    const int rows = static_cast<int>(scale.size()) * gray.rows;
+    scratch.sharp_buffer.create(rows, gray.cols, CV_8UC1);
+    scratch.smooth_buffer.create(rows, gray.cols, CV_8UC1);
     for (std::size_t l = 0; l < scale.size(); ++l) {
-        const cv::Size size(static_cast<int>(std::lround(grey.cols / scale[l])),
-                            static_cast<int>(std::lround(grey.rows / scale[l])));
+        const cv::Size size(static_cast<int>(std::lround(gray.cols / scale[l])),
+                            static_cast<int>(std::lround(gray.rows / scale[l])));
         if (size.width < needed || size.height < needed) {
             scratch.levels.resize(l);
             return;
         }
-        const cv::Rect place(0, static_cast<int>(l) * grey.rows, size.width, size.height);
+        const cv::Rect place(0, static_cast<int>(l) * gray.rows, size.width, size.height);
         Level& level = scratch.levels[l];
         level.sharp = scratch.sharp_buffer(place);
         level.smooth = scratch.smooth_buffer(place);
         if (l == 0) {
-            grey.copyTo(level.sharp);
+            gray.copyTo(level.sharp);
         } else {
             cv::resize(scratch.levels[l - 1].sharp, level.sharp, size, 0, 0, cv::INTER_LINEAR);
         }
@@ -158,7 +158,7 @@ std::vector<FastCorner> selectEvenly(std::vector<std::vector<FastCorner>>& cells
     return selected;
 }
 
-/** Where the structure tensor of the 5x5 neighbourhood places the corner (Foerstner and Guelch,
+/** Where the structure tensor of the 5x5 neighborhood places the corner (Foerstner and Guelch,
  *  1987), as an offset from its pixel; none when that leaves the pixel. */
 cv::Point2f subPixelOffset(const cv::Mat& image, int x, int y) {
     constexpr int radius = 2;
@@ -183,11 +183,11 @@ cv::Point2f subPixelOffset(const cv::Mat& image, int x, int y) {
     return std::abs(offset.x) <= 1.5f && std::abs(offset.y) <= 1.5f ? offset : cv::Point2f(0, 0);
 }
 
-Descriptor describeCorner(const std::uint8_t* centre, const int* offsets) {
+Descriptor describeCorner(const std::uint8_t* center, const int* offsets) {
     Descriptor descriptor{};
     for (std::uint64_t& word : descriptor) {
         for (int i = 63; i >= 0; --i) {  // the sum is one add with carry; a shift by i takes longer
-            word += word + (centre[offsets[2 * i]] < centre[offsets[2 * i + 1]]);
+            word += word + (center[offsets[2 * i]] < center[offsets[2 * i + 1]]);
         }
         offsets += 2 * 64;
     }
@@ -198,8 +198,8 @@ Patch patchAround(const cv::Mat& image, int x, int y, const cv::Point2f& corner)
     Patch patch;
     patch.corner = corner;
     for (int j = 0; j < Patch::side; ++j) {
-        std::memcpy(&patch.grey[Patch::side * j],
-                    image.ptr<std::uint8_t>(y - Patch::centre + j) + x - Patch::centre,
+        std::memcpy(&patch.gray[Patch::side * j],
+                    image.ptr<std::uint8_t>(y - Patch::center + j) + x - Patch::center,
                     Patch::side);
     }
     return patch;
@@ -231,9 +231,9 @@ OrbExtractor::OrbExtractor(const FeatureOptions& options) : options_(options) {
 
 OrbExtractor::~OrbExtractor() = default;
 
-OrbFeatures OrbExtractor::extract(const cv::Mat& grey) const {
+OrbFeatures OrbExtractor::extract(const cv::Mat& gray) const {
     static thread_local Scratch scratch;
-    buildPyramid(grey, scale_, scratch);
+    buildPyramid(gray, scale_, scratch);
     updateOffsets(scratch);
     OrbFeatures features;
     reserve(features, options_.count);
@@ -241,12 +241,12 @@ OrbFeatures OrbExtractor::extract(const cv::Mat& grey) const {
         const Level& level = scratch.levels[l];
         const std::size_t used = detectInCells(level.sharp, options_, scratch);
         // The true ratio: sizes are whole pixels, so it differs from the nominal one.
-        const float scale_x = static_cast<float>(grey.cols) / level.sharp.cols;
-        const float scale_y = static_cast<float>(grey.rows) / level.sharp.rows;
+        const float scale_x = static_cast<float>(gray.cols) / level.sharp.cols;
+        const float scale_y = static_cast<float>(gray.rows) / level.sharp.rows;
         for (const FastCorner& corner : selectEvenly(scratch.cells, used, quota_[l])) {
             const float angle = patchOrientation(level.sharp, corner.x, corner.y);
             const cv::Point2f offset = subPixelOffset(level.sharp, corner.x, corner.y);
-            // Pixel centres are whole numbers on every level, so scaling is about the image corner.
+            // Pixel centers are whole numbers on every level, so scaling is about the image corner.
             features.corners.push_back({(corner.x + offset.x + 0.5f) * scale_x - 0.5f,
                                         (corner.y + offset.y + 0.5f) * scale_y - 0.5f, angle,
                                         static_cast<int>(l)});

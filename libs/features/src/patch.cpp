@@ -18,7 +18,7 @@ constexpr float farthest_px = 2;
 /** Of the squared trace of the structure tensor: below, an edge hides where along it one is. */
 constexpr float least_determinant = 1e-3f;
 constexpr float least_gradient = 100;
-/** Variance of the difference that is bearable, as a share of the patch's own and in grey levels:
+/** Variance of the difference that is bearable, as a share of the patch's own and in gray levels:
  *  sensors are noisy. */
 constexpr float most_unexplained = 0.3f, noise_variance = 50;
 
@@ -68,10 +68,10 @@ RGBD_INLINE void loadBetween(const std::uint8_t* from, float right, Row& row) {
 }
 
 /** Bilinear; (x, y) from the top left pixel of the patch. */
-RGBD_INLINE float greyAt(const Patch& patch, float x, float y) {
+RGBD_INLINE float grayAt(const Patch& patch, float x, float y) {
     const int column = static_cast<int>(x), row = static_cast<int>(y);
     const float right = x - static_cast<float>(column), down = y - static_cast<float>(row);
-    const std::uint8_t* p = &patch.grey[Patch::side * row + column];
+    const std::uint8_t* p = &patch.gray[Patch::side * row + column];
     const float upper = p[0] + right * static_cast<float>(p[1] - p[0]);
     const float lower =
         p[Patch::side] + right * static_cast<float>(p[Patch::side + 1] - p[Patch::side]);
@@ -80,42 +80,42 @@ RGBD_INLINE float greyAt(const Patch& patch, float x, float y) {
 
 /** The reference as the other camera should see it. */
 struct Template {
-    Row grey[side], gradient_x[side], gradient_y[side];
+    Row gray[side], gradient_x[side], gradient_y[side];
     float xx, xy, yy, determinant, variance;
 };
 
 /** A window of the template with the border that gradients need; rows are as long as two Rows. */
 struct FramedWindow {
-    float grey[framed][2 * side];
+    float gray[framed][2 * side];
 };
 
 /** Any similarity, pixel by pixel. */
 RGBD_INLINE void sampleTurned(const Patch& reference, float c, float s, FramedWindow& window) {
     constexpr float half = 0.5f * (framed - 1);
-    const float x0 = Patch::centre + reference.corner.x - half * (c + s);
-    const float y0 = Patch::centre + reference.corner.y - half * (c - s);
+    const float x0 = Patch::center + reference.corner.x - half * (c + s);
+    const float y0 = Patch::center + reference.corner.y - half * (c - s);
     for (int y = 0; y < framed; ++y) {
         for (int x = 0; x < framed; ++x) {
             const auto i = static_cast<float>(x), j = static_cast<float>(y);
-            window.grey[y][x] = greyAt(reference, x0 + c * i + s * j, y0 - s * i + c * j);
+            window.gray[y][x] = grayAt(reference, x0 + c * i + s * j, y0 - s * i + c * j);
         }
     }
 }
 
 /** A shift alone, row by row. */
 RGBD_INLINE void sampleUpright(const Patch& reference, FramedWindow& window) {
-    const float left = Patch::centre + reference.corner.x - 0.5f * (framed - 1);
-    const float top = Patch::centre + reference.corner.y - 0.5f * (framed - 1);
+    const float left = Patch::center + reference.corner.x - 0.5f * (framed - 1);
+    const float top = Patch::center + reference.corner.y - 0.5f * (framed - 1);
     const int column = static_cast<int>(left), row = static_cast<int>(top);
     const float right = left - static_cast<float>(column), down = top - static_cast<float>(row);
     for (const int x : {0, framed - side}) {
         Row above{};
         for (int y = 0; y <= framed; ++y) {
             Row here;
-            loadBetween(&reference.grey[Patch::side * (row + y) + column + x], right, here);
+            loadBetween(&reference.gray[Patch::side * (row + y) + column + x], right, here);
             if (y > 0) {
                 const Row between = above + down * (here - above);
-                std::memcpy(&window.grey[y - 1][x], &between, sizeof(Row));
+                std::memcpy(&window.gray[y - 1][x], &between, sizeof(Row));
             }
             above = here;
         }
@@ -133,7 +133,7 @@ RGBD_INLINE bool makeTemplate(const Patch& reference, const PatchMotion& motion,
     }
     const float reach = 0.5f * (framed - 1) * (std::abs(c) + std::abs(s)) +
                         std::max(std::abs(reference.corner.x), std::abs(reference.corner.y));
-    if (!(reach < Patch::centre - 1)) return false;
+    if (!(reach < Patch::center - 1)) return false;
     FramedWindow window;
     if (upright) {
         sampleUpright(reference, window);
@@ -142,22 +142,22 @@ RGBD_INLINE bool makeTemplate(const Patch& reference, const PatchMotion& motion,
     }
     for (int y = 0; y < side; ++y) {
         Row left, right, above, below;
-        std::memcpy(&t.grey[y], &window.grey[y + 1][1], sizeof(Row));
-        std::memcpy(&left, &window.grey[y + 1][0], sizeof(Row));
-        std::memcpy(&right, &window.grey[y + 1][2], sizeof(Row));
-        std::memcpy(&above, &window.grey[y][1], sizeof(Row));
-        std::memcpy(&below, &window.grey[y + 2][1], sizeof(Row));
+        std::memcpy(&t.gray[y], &window.gray[y + 1][1], sizeof(Row));
+        std::memcpy(&left, &window.gray[y + 1][0], sizeof(Row));
+        std::memcpy(&right, &window.gray[y + 1][2], sizeof(Row));
+        std::memcpy(&above, &window.gray[y][1], sizeof(Row));
+        std::memcpy(&below, &window.gray[y + 2][1], sizeof(Row));
         t.gradient_x[y] = 0.5f * (right - left);
         t.gradient_y[y] = 0.5f * (below - above);
     }
-    removeMean(t.grey);
+    removeMean(t.gray);
     removeMean(t.gradient_x);
     removeMean(t.gradient_y);
     t.xx = dot(t.gradient_x, t.gradient_x);
     t.xy = dot(t.gradient_x, t.gradient_y);
     t.yy = dot(t.gradient_y, t.gradient_y);
     t.determinant = t.xx * t.yy - t.xy * t.xy;
-    t.variance = dot(t.grey, t.grey) / pixels;
+    t.variance = dot(t.gray, t.gray) / pixels;
     const float trace = t.xx + t.yy;
     return trace > least_gradient && t.determinant > least_determinant * trace * trace;
 }
@@ -175,8 +175,8 @@ RGBD_INLINE bool compare(const Template& t, const Patch& patch, float x, float y
     Row above{};
     for (int j = 0; j <= side; ++j) {
         Row here;
-        loadBetween(&patch.grey[Patch::side * (row + j) + column], right, here);
-        if (j > 0) difference[j - 1] = above + down * (here - above) - t.grey[j - 1];
+        loadBetween(&patch.gray[Patch::side * (row + j) + column], right, here);
+        if (j > 0) difference[j - 1] = above + down * (here - above) - t.gray[j - 1];
         above = here;
     }
     return true;
@@ -189,8 +189,8 @@ bool align(const Patch& reference, const PatchMotion& motion, const Patch& patch
     if (!makeTemplate(reference, motion, t)) return false;
     Row difference[side];
     for (int i = 0; i < iterations; ++i) {
-        if (!compare(t, patch, Patch::centre + patch.corner.x + offset.x,
-                     Patch::centre + patch.corner.y + offset.y, difference)) {
+        if (!compare(t, patch, Patch::center + patch.corner.x + offset.x,
+                     Patch::center + patch.corner.y + offset.y, difference)) {
             return false;
         }
         const float bx = dot(t.gradient_x, difference), by = dot(t.gradient_y, difference);

@@ -15,7 +15,7 @@ namespace {
 constexpr int lanes = 32;
 constexpr int half_lanes = lanes / 2;  // that many 16-bit sums fill a register
 constexpr int rows = 2 * orb_patch_radius + 1;
-constexpr int left = orb_patch_radius + 1;  // lane of the centre column
+constexpr int left = orb_patch_radius + 1;  // lane of the center column
 static_assert(rows < lanes, "a row of the disc fits into one register");
 
 typedef std::uint8_t HalfBytes __attribute__((vector_size(half_lanes)));
@@ -45,10 +45,10 @@ Moments momentsOf(const std::uint8_t* top_left, int step,
     Shorts column_sum[2]{}, weighted[2]{};
     for (int r = 0; r < rows; ++r) {
         for (int half = 0; half < 2; ++half) {
-            HalfBytes grey, mask;
-            std::memcpy(&grey, top_left + r * step + half * half_lanes, half_lanes);
+            HalfBytes gray, mask;
+            std::memcpy(&gray, top_left + r * step + half * half_lanes, half_lanes);
             std::memcpy(&mask, masks[r].data() + half * half_lanes, half_lanes);
-            const Shorts wide = __builtin_convertvector(grey & mask, Shorts);
+            const Shorts wide = __builtin_convertvector(gray & mask, Shorts);
             column_sum[half] += wide;
             weighted[half] += wide * static_cast<std::int16_t>(r - orb_patch_radius);
         }

@@ -8,12 +8,12 @@
 namespace rgbd_graphslam {
 namespace {
 
-/** 16 times the weighted mean of five neighbours, `stride` apart: at most 16 * 16 * 255 when it is
+/** 16 times the weighted mean of five neighbors, `stride` apart: at most 16 * 16 * 255 when it is
  *  done twice, which fits. */
 template <typename T>
-inline std::uint16_t weigh(const T* centre, int stride) {
-    return centre[-2 * stride] + centre[2 * stride] + 4 * (centre[-stride] + centre[stride]) +
-           6 * centre[0];
+inline std::uint16_t weigh(const T* center, int stride) {
+    return center[-2 * stride] + center[2 * stride] + 4 * (center[-stride] + center[stride]) +
+           6 * center[0];
 }
 
 /** Plain loops, which the compiler makes vectors of. \param sums buffer of one entry a column */

@@ -5,7 +5,7 @@
 namespace rgbd_graphslam {
 namespace {
 
-/** On the normalised plane z = 1. */
+/** On the normalized plane z = 1. */
 Eigen::Vector2d distorted(const Eigen::Vector2d& n, const std::array<double, 5>& d) {
     const double x = n.x(), y = n.y(), r2 = n.squaredNorm();
     const double radial = 1 + r2 * (d[0] + r2 * (d[1] + r2 * d[4]));

@@ -26,13 +26,13 @@ Eigen::Vector3d rotationLog(const Eigen::Matrix3d& R) {
     return (q.w() < 0 ? -scale : scale) * q.vec();
 }
 
-Eigen::Matrix3d orthonormalised(const Eigen::Matrix3d& R) {
+Eigen::Matrix3d orthonormalized(const Eigen::Matrix3d& R) {
     return Eigen::Quaterniond(R).normalized().toRotationMatrix();
 }
 
 SE3 SE3::retract(const Vector6d& delta) const {
     const Eigen::Matrix3d dR = rotationExp(delta.tail<3>());
-    return {orthonormalised(dR * R), dR * t + delta.head<3>()};
+    return {orthonormalized(dR * R), dR * t + delta.head<3>()};
 }
 
 Vector6d SE3::minus(const SE3& other) const {

@@ -100,7 +100,7 @@ bool CCeresGSO::updateState(mrpt::obs::CActionCollection::Ptr, mrpt::obs::CSenso
 void CCeresGSO::optimizeGraph() {
     SharedSlam& shared = *m_graph->shared;
     PoseGraph graph = shared.slam->poseGraph();
-    shared.times.measure("optimise", [&] { optimizePoseGraph(graph, shared.options.pose_graph); });
+    shared.times.measure("optimize", [&] { optimizePoseGraph(graph, shared.options.pose_graph); });
     shared.slam->correct(graph.nodes);
     dropForgottenLoops(*m_graph);
     updateNodes(*m_graph);

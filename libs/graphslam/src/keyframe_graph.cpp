@@ -95,7 +95,7 @@ void load(ByteReader& in, KeyframeGraph& graph) {
     for (int id = 0; id < nodes; ++id) graph.nodes[id] = {};
     const std::size_t edges = in.getCount(edge_bytes);
     for (std::size_t e = 0; e < edges; ++e) {
-        const EdgeKind kind = getFlag(in) ? EdgeKind::Loop : EdgeKind::Odometry;
+        const EdgeKind kind = getFlag(in) ? EdgeKind::Loop : EdgeKind::Sequential;
         insert(getEdge(in, nodes, kind), graph);
     }
     updateNodes(graph);

@@ -41,7 +41,7 @@ void KeyframeOptionsChecker::populateDeciderOptimizerProperties() {
         "Track ORB features with depth; register a node where the view has changed enough"));
     regs_descriptions.push_back(
         decider("Edge", "COrbLoopClosureERD",
-                "Recognise places by ORB descriptors, verify them geometrically, add loop edges"));
+                "Recognize places by ORB descriptors, verify them geometrically, add loop edges"));
     optimizers_descriptions.push_back(properties<TOptimizerProps>(
         "CCeresGSO", "Ceres with a robust kernel on loop edges; needs COrbKeyframeNRD"));
 }

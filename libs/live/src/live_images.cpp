@@ -26,7 +26,7 @@ cv::Mat everyNth(const cv::Mat& image, int step) {
 cv::Mat reducedColor(const RgbdImage& image, int step) {
     if (!image.color.empty()) return everyNth<cv::Vec3b>(image.color, step);
     cv::Mat color;
-    cv::cvtColor(everyNth<uchar>(image.grey, step), color, cv::COLOR_GRAY2BGR);
+    cv::cvtColor(everyNth<uchar>(image.gray, step), color, cv::COLOR_GRAY2BGR);
     return color;
 }
 

@@ -6,7 +6,7 @@
 
 #include "file_bytes.h"
 #include "rgbd_graphslam/core/error.h"
-#include "rgbd_graphslam/evaluation/ply.h"
+#include "rgbd_graphslam/geometry/ply.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 
 namespace rgbd_graphslam {
@@ -63,7 +63,7 @@ void saveMetricMap(const std::string& path, const PointMap& points) {
 PointMap loadPly(const std::string& path) {
     const PlyModel model = readPly(path);
     if (model.colors.size() != model.vertices.size()) {
-        throw Error("'" + path + "' has no colours", "write the map again with rgbd-map");
+        throw Error("'" + path + "' has no colors", "write the map again with rgbd-map");
     }
     PointMap points(model.vertices.size());
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -42,7 +42,7 @@ DenseMapper::DenseMapper(const MapOptions& options, const Camera& camera)
     }
     if (options.mesh_voxel_m > 0) {
         checkMeshVoxel(options.mesh_voxel_m);
-        mesh_volume_ = std::make_unique<DistanceVolume>(options.mesh_voxel_m);
+        mesh_volume_ = std::make_unique<TsdfVolume>(options.mesh_voxel_m);
     }
 }
 
@@ -60,8 +60,8 @@ void DenseMapper::insert(const SE3& T_world_cam, const DepthView& view) {
 }
 
 void DenseMapper::finish() {
-    octree_volume_.dropSpill();
-    if (grid_volume_) grid_volume_->dropSpill();
+    octree_volume_.removeNoiseVoxels();
+    if (grid_volume_) grid_volume_->removeNoiseVoxels();
 }
 
 PointMap DenseMapper::points() const {

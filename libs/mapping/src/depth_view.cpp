@@ -22,11 +22,11 @@ void checkImage(const RgbdImage& image, const Camera& camera) {
     if (image.depth.cols != camera.width || image.depth.rows != camera.height) {
         throw Error(name + " has a depth image of " + sizeText(image.depth.cols, image.depth.rows) +
                         " pixels, its camera one of " + sizeText(camera.width, camera.height),
-                    "register depth to colour and import again");
+                    "register depth to color and import again");
     }
 }
 
-cv::Mat1f metres(const cv::Mat& raw, double unit_m, double nearest_m) {
+cv::Mat1f meters(const cv::Mat& raw, double unit_m, double nearest_m) {
     cv::Mat1f depth(raw.size());
     const auto unit = static_cast<float>(unit_m), nearest = static_cast<float>(nearest_m);
     for (int v = 0; v < raw.rows; ++v) {
@@ -40,10 +40,10 @@ cv::Mat1f metres(const cv::Mat& raw, double unit_m, double nearest_m) {
     return depth;
 }
 
-/** A neighbour without a reading says nothing. Without a branch, for whole rows to be vectorised.
+/** A neighbor without a reading says nothing. Without a branch, for whole rows to be vectorised.
  */
-bool jumps(float z, float neighbour, float tolerance) {
-    return (neighbour > 0) & (std::abs(neighbour - z) > tolerance);
+bool jumps(float z, float neighbor, float tolerance) {
+    return (neighbor > 0) & (std::abs(neighbor - z) > tolerance);
 }
 
 /** Drops readings beside a depth edge. */
@@ -82,7 +82,7 @@ cv::Mat3b colorOf(const RgbdImage& image) {
     const cv::Size size = image.depth.size();
     if (image.color.size() == size && image.color.type() == CV_8UC3) return image.color;
     cv::Mat3b color(size, cv::Vec3b(160, 160, 160));
-    if (image.grey.size() == size) cv::cvtColor(image.grey, color, cv::COLOR_GRAY2BGR);
+    if (image.gray.size() == size) cv::cvtColor(image.gray, color, cv::COLOR_GRAY2BGR);
     return color;
 }
 
@@ -123,7 +123,7 @@ cv::Mat1f RayTable::rectified(const cv::Mat1f& depth) const {
 cv::Mat1f cleanDepth(const RgbdImage& image, const Camera& camera, const MapOptions& options,
                      const DepthNoise& noise) {
     checkImage(image, camera);
-    const cv::Mat1f depth = metres(image.depth, image.depth_unit_m, options.min_range_m);
+    const cv::Mat1f depth = meters(image.depth, image.depth_unit_m, options.min_range_m);
     cv::Mat1f clean(depth.size());
     const EdgeFilter filter(options.edge_ratio, noise);
     for (int v = 0; v < depth.rows; ++v) filter.cleanRow(depth, v, clean[v]);

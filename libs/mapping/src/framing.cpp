@@ -90,7 +90,7 @@ Eigen::AlignedBox3d middleOf(const std::vector<Weighted>& points) {
     return {low, high};
 }
 
-/** Sorted into cubes, so that only neighbours are compared. */
+/** Sorted into cubes, so that only neighbors are compared. */
 class KeptKeyframes {
   public:
     KeptKeyframes(const Trajectory& keyframes, double least_m, double alike_cos)

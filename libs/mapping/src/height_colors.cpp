@@ -8,7 +8,7 @@ namespace rgbd_graphslam {
 namespace {
 
 std::array<Rgba, height_palette_size> makePalette() {
-    constexpr double first = 22, last = 238;  // of OpenCV's 256 colours
+    constexpr double first = 22, last = 238;  // of OpenCV's 256 colors
     cv::Mat1b index(1, height_palette_size);
     for (int i = 0; i < height_palette_size; ++i)
         index(i) = cv::saturate_cast<uchar>(first + (last - first) * i / (height_palette_size - 1));

@@ -28,16 +28,17 @@ void checkInputs(const MapInputs& inputs) {
     }
 }
 
-MapInputs withoutApart(const MapInputs& inputs) {
+MapInputs withoutDisconnected(const MapInputs& inputs) {
     MapInputs result = inputs;
-    result.apart.clear();
+    result.disconnected.clear();
     result.keyframes.clear();
     result.loops.clear();
     result.keyframes_before_loops.clear();
-    const auto& apart = inputs.apart;
+    const auto& disconnected = inputs.disconnected;
     std::vector<int> number;
     for (std::size_t k = 0; k < inputs.keyframes.size(); ++k) {
-        const bool left_out = std::binary_search(apart.begin(), apart.end(), static_cast<int>(k));
+        const bool left_out =
+            std::binary_search(disconnected.begin(), disconnected.end(), static_cast<int>(k));
         number.push_back(left_out ? -1 : static_cast<int>(result.keyframes.size()));
         if (left_out) continue;
         result.keyframes.push_back(inputs.keyframes[k]);

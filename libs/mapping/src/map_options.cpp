@@ -18,7 +18,7 @@ void MapOptions::describe(OptionVisitor& v) {
     v.real("max_range_m", max_range_m, 0.5, 100, "m",
            "Maximum range; farther readings add no surface but still clear space up to this range");
     v.real("edge_ratio", edge_ratio, 0.001, 1, "",
-           "Relative depth jump to a neighbouring pixel that marks a depth edge");
+           "Relative depth jump to a neighboring pixel that marks a depth edge");
     v.real(
         "hit_share", hit_share, 0, 1, "",
         "Share of the pixels covering a leaf that must hit it for a keyframe to mark it occupied");

@@ -14,7 +14,7 @@
 namespace rgbd_graphslam {
 namespace {
 
-// Probabilities of being occupied. A reader takes the grey of unknown for 50 / 255 = 0.19608, which
+// Probabilities of being occupied. A reader takes the gray of unknown for 50 / 255 = 0.19608, which
 // must not be below the threshold of free space.
 constexpr float occupied_threshold = 0.65f, free_threshold = 0.196f;
 constexpr int ros_occupied = 0, ros_unknown = 205, ros_free = 254;

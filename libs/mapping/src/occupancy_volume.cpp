@@ -128,7 +128,7 @@ void OccupancyVolume::sortReadings(const SE3& T_world_cam, const DepthView& view
     frame_.clear();
     constexpr std::uint64_t none = ~0ull;
     std::uint64_t last_key = none;
-    VoxelReadings* last = nullptr;  // neighbouring runs often share a voxel
+    VoxelReadings* last = nullptr;  // neighboring runs often share a voxel
     SurfaceSampler(view, T_world_cam, cells_.cellSize(), step)
         .forEachRun([&](const VoxelIndex& cell, const SurfaceSample& run) {
             const std::uint64_t key = voxelKey({cell.x >> 1, cell.y >> 1, cell.z >> 1});
@@ -159,7 +159,7 @@ void OccupancyVolume::addHits(const SE3& T_world_cam, const DepthView& view) {
     }
 }
 
-void OccupancyVolume::dropSpill() {
+void OccupancyVolume::removeNoiseVoxels() {
     const SurfacePlanes planes(cells_);
     for (const auto& entry : colors_.entries()) {
         const VoxelIndex voxel = voxelOfKey(entry.key);

@@ -7,7 +7,7 @@
 #include <sstream>
 
 #include "rgbd_graphslam/core/error.h"
-#include "rgbd_graphslam/mapping/level_survey.h"
+#include "rgbd_graphslam/mapping/gravity_aligner.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;
@@ -37,10 +37,10 @@ std::string findRawlog(const nlohmann::json& summary, const fs::path& folder) {
     throw Error("the rawlog '" + path.string() + "' of this run is gone", "give --rawlog FILE");
 }
 
-/** As it was given to rgbd-slam; nothing when the run was not localised. */
+/** As it was given to rgbd-slam; nothing when the run was not localized. */
 std::optional<std::string> mapFolderOf(const nlohmann::json& summary) {
     const auto map = summary.value("map", nlohmann::json());
-    if (!map.is_object() || map.value("use", nlohmann::json()) != "localise") return std::nullopt;
+    if (!map.is_object() || map.value("use", nlohmann::json()) != "localize") return std::nullopt;
     const auto folder = map.value("folder", nlohmann::json());
     return folder.is_string() ? folder.get<std::string>() : std::string();
 }
@@ -122,9 +122,9 @@ MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
         inputs.earlier = earlierSessionsOf(summary);
         const auto label = summary.value("sensor", nlohmann::json());
         if (label.is_string()) inputs.sensor_label = label.get<std::string>();
-        inputs.apart = summary.value("apart_keyframes", std::vector<int>());
+        inputs.disconnected = summary.value("apart_keyframes", std::vector<int>());
     } catch (const nlohmann::json::exception&) {
-        throw Error("'loop_edges', 'earlier_sessions' or 'apart_keyframes' in '" +
+        throw Error("'loop_edges', 'earlier_sessions' or 'disconnected_keyframes' in '" +
                         (root / "summary.json").string() + "' is not what rgbd-slam writes",
                     "run rgbd-slam again");
     }
@@ -133,17 +133,17 @@ MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
     return inputs;
 }
 
-std::optional<LocalisedRun> readLocalisedRun(const std::string& folder) {
+std::optional<LocalizedRun> readLocalizedRun(const std::string& folder) {
     const fs::path root(folder);
     const auto map_folder = mapFolderOf(readSummary(root / "summary.json"));
     if (!map_folder) return std::nullopt;
-    LocalisedRun run;
+    LocalizedRun run;
     for (const fs::path& candidate : {fs::path(*map_folder), root / *map_folder}) {
         const bool has_map = fs::exists(candidate / "keyframes.txt");
         if (run.map_folder.empty() && has_map) run.map_folder = candidate.string();
     }
     if (run.map_folder.empty()) {
-        throw Error("the map '" + *map_folder + "' that this run was localised in is gone",
+        throw Error("the map '" + *map_folder + "' that this run was localized in is gone",
                     "run rgbd-slam again");
     }
     run.trajectory = readTumTrajectory((root / "trajectory.txt").string());

@@ -8,9 +8,9 @@
 namespace rgbd_graphslam {
 namespace {
 
-using Voxel = DistanceVolume::Voxel;
-using Block = DistanceVolume::Block;
-constexpr int block_size = DistanceVolume::block_size;
+using Voxel = TsdfVolume::Voxel;
+using Block = TsdfVolume::Block;
+constexpr int block_size = TsdfVolume::block_size;
 
 // A corner of a cell is numbered x | y << 1 | z << 2. An edge along an axis is numbered by the axis
 // and by the place of its lower corner along the next two axes.
@@ -108,9 +108,9 @@ class Sheets {
 };
 
 /** A block's voxels and the first ones of the blocks after it. */
-class Neighbourhood {
+class Neighborhood {
   public:
-    Neighbourhood(const DistanceVolume::BlockTable& blocks, const VoxelIndex& index) {
+    Neighborhood(const TsdfVolume::BlockTable& blocks, const VoxelIndex& index) {
         for (int i = 0; i < corners; ++i) {
             const auto* found = blocks.find(
                 voxelKey({index.x + (i & 1), index.y + (i >> 1 & 1), index.z + (i >> 2)}));
@@ -133,7 +133,7 @@ class Neighbourhood {
 
 class SurfaceNets {
   public:
-    SurfaceNets(const DistanceVolume::BlockTable& blocks, double voxel_m) : voxel_m_(voxel_m) {
+    SurfaceNets(const TsdfVolume::BlockTable& blocks, double voxel_m) : voxel_m_(voxel_m) {
         for (const auto& entry : blocks.entries()) addVertices(blocks, entry.key);
         for (const auto& entry : cells_.entries()) addFaces(voxelOfKey(entry.key), entry.cell);
     }
@@ -148,9 +148,9 @@ class SurfaceNets {
     /** Null where no view saw it. */
     using CellCorners = std::array<const Voxel*, corners>;
 
-    void addVertices(const DistanceVolume::BlockTable& blocks, std::uint64_t block_key) {
+    void addVertices(const TsdfVolume::BlockTable& blocks, std::uint64_t block_key) {
         const VoxelIndex block = voxelOfKey(block_key);
-        const Neighbourhood voxels(blocks, block);
+        const Neighborhood voxels(blocks, block);
         for (int z = 0; z < block_size; ++z) {
             for (int y = 0; y < block_size; ++y) {
                 for (int x = 0; x < block_size; ++x) {
@@ -220,7 +220,7 @@ class SurfaceNets {
 
     static Eigen::Vector3f colorOf(const Voxel& voxel) {
         return Eigen::Vector3f(voxel.color[0], voxel.color[1], voxel.color[2]) /
-               DistanceVolume::color_steps;
+               TsdfVolume::color_steps;
     }
 
     /** Those of the edges at a cell's lower corner, each in the middle of four cells. */
@@ -275,7 +275,7 @@ class SurfaceNets {
 
 }  // namespace
 
-PlyModel surfaceOf(const DistanceVolume::BlockTable& blocks, double voxel_m) {
+PlyModel surfaceOf(const TsdfVolume::BlockTable& blocks, double voxel_m) {
     return SurfaceNets(blocks, voxel_m).mesh();
 }
 

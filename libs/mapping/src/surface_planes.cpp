@@ -8,16 +8,15 @@ namespace {
 
 /** Where a plane is looked for: cells within a radius, wide ones for readings from afar, which lie
  *  in a thick layer. */
-struct Neighbourhood {
+struct Neighborhood {
     int level;  // of cells: 0 are half a voxel wide, each next one twice as much
     double radius_cells;
     /** How uncertain a voxel's own readings must be for it: elsewhere it would take what stands out
      *  of a wall for noise. */
     double least_sigma_voxels;
 };
-constexpr Neighbourhood neighbourhoods[] = {
-    {0, 2.4, 0}, {0, 4.8, 0}, {1, 4.8, 0.04}, {2, 4.8, 0.17}};
-/** What the readings of a neighbourhood tell less exactly is no plane: any three lie in one. */
+constexpr Neighborhood neighborhoods[] = {{0, 2.4, 0}, {0, 4.8, 0}, {1, 4.8, 0.04}, {2, 4.8, 0.17}};
+/** What the readings of a neighborhood tell less exactly is no plane: any three lie in one. */
 constexpr double plane_sigma_voxels = 0.07;
 /** Deviation across the plane over the smaller one along it; 1 is no plane at all. */
 constexpr double flatness = 0.45;
@@ -69,7 +68,7 @@ bool SurfacePlanes::cross(const VoxelIndex& voxel) const {
     const double sigma = sigmaVoxels(own.weight);
     const Eigen::Vector3d center(voxel.x + 0.5, voxel.y + 0.5, voxel.z + 0.5);
     const SurfaceCells* const levels[] = {&cells_, &coarse_, &coarsest_};
-    for (const auto& [level, radius, least_sigma] : neighbourhoods) {
+    for (const auto& [level, radius, least_sigma] : neighborhoods) {
         if (sigma < least_sigma) break;
         const Eigen::Vector3d middle = own.position / (1 << level);
         if (const auto plane = planeAround(*levels[level], middle, radius))

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "rgbd_graphslam/evaluation/statistics.h"
+#include "rgbd_graphslam/metrics/statistics.h"
 
 namespace rgbd_graphslam {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <unordered_set>
 
-#include "rgbd_graphslam/evaluation/surface_sampling.h"
+#include "rgbd_graphslam/geometry/surface_sampling.h"
 #include "rgbd_graphslam/mapping/voxel_table.h"
 
 namespace rgbd_graphslam {

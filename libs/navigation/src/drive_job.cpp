@@ -14,8 +14,8 @@
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
-#include "rgbd_graphslam/evaluation/ate.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/metrics/ate.h"
 #include "rgbd_graphslam/navigation/clearance.h"
 #include "rgbd_graphslam/navigation/drive_report.h"
 

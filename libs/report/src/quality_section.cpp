@@ -19,10 +19,10 @@ std::string framesRow(const RunRecord& run) {
     };
     return row(
         "frames",
-        formatted("%.1f %% tracked, %.1f %% recovered, %.1f %% uncertain, %.1f %% weak, "
+        formatted("%.1f %% tracked, %.1f %% recovered, %.1f %% uncertain, %.1f %% dead-reckoned, "
                   "%.1f %% lost",
                   percent(FrameState::Tracked), percent(FrameState::Recovered),
-                  percent(FrameState::Uncertain), percent(FrameState::Weak),
+                  percent(FrameState::Uncertain), percent(FrameState::DeadReckoned),
                   percent(FrameState::Lost)),
         "by landmarks; relocalized after a loss; by too few landmarks to build on; by motion "
         "only; not at all");

@@ -99,7 +99,7 @@ std::string errorChart(const RunRecord& run, const AteResult& ate) {
 
 std::string landmarkChart(const RunRecord& run) {
     ChartLine line{"", "value", {}};
-    for (const FrameRecord& frame : run.frames) {
+    for (const ReportedFrame& frame : run.frames) {
         line.points.emplace_back(frame.seconds, frame.inliers);
     }
     std::vector<std::pair<double, double>> lost;

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "rgbd_graphslam/evaluation/ate.h"
+#include "rgbd_graphslam/metrics/ate.h"
 #include "rgbd_graphslam/report/run_record.h"
 
 namespace rgbd_graphslam {

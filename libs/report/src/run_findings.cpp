@@ -86,7 +86,7 @@ class Findings {
 
     void aboutLandmarks() {
         std::size_t few = 0, located = 0;
-        for (const FrameRecord& frame : run_.frames) {
+        for (const ReportedFrame& frame : run_.frames) {
             if (frame.state == FrameState::Lost) continue;
             ++located;
             few += frame.inliers < few_landmarks;
@@ -126,10 +126,10 @@ class Findings {
 
 }  // namespace
 
-std::vector<LostSpan> lostSpans(const std::vector<FrameRecord>& frames) {
+std::vector<LostSpan> lostSpans(const std::vector<ReportedFrame>& frames) {
     std::vector<LostSpan> spans;
     bool lost_before = false;
-    for (const FrameRecord& frame : frames) {
+    for (const ReportedFrame& frame : frames) {
         const bool lost = frame.state == FrameState::Lost;
         if (lost && !lost_before) spans.push_back({0, frame.seconds, frame.seconds, false});
         if (lost) {

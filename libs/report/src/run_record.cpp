@@ -23,10 +23,10 @@ std::string bytesOf(const fs::path& path) {
 FrameState stateOf(const std::string& word, const std::string& place) {
     if (word == "tracked") return FrameState::Tracked;
     if (word == "recovered") return FrameState::Recovered;
-    if (word == "weak") return FrameState::Weak;
+    if (word == "weak") return FrameState::DeadReckoned;
     if (word == "uncertain") return FrameState::Uncertain;
     if (word == "lost") return FrameState::Lost;
-    throw Error(place + ": a frame is tracked, recovered, weak, uncertain or lost",
+    throw Error(place + ": a frame is tracked, recovered, dead_reckoned, uncertain or lost",
                 "run rgbd-slam again");
 }
 
@@ -42,7 +42,7 @@ void readFrames(const fs::path& path, RunRecord& run) {
         std::string state, keyframe;
         double stamp_s = 0;
         char comma = 0;
-        FrameRecord frame;
+        ReportedFrame frame;
         if (!(fields >> stamp_s >> comma) || !std::getline(fields, state, ',') ||
             !(fields >> frame.inliers >> comma)) {
             throw Error(place + " is no line of stamp, state, inliers, keyframe",
@@ -182,7 +182,7 @@ Trajectory readIfThere(const fs::path& path) {
 
 std::size_t RunRecord::count(FrameState state) const {
     return static_cast<std::size_t>(std::count_if(
-        frames.begin(), frames.end(), [&](const FrameRecord& f) { return f.state == state; }));
+        frames.begin(), frames.end(), [&](const ReportedFrame& f) { return f.state == state; }));
 }
 
 RunRecord readRunRecord(const std::string& run_folder, const std::string& map_folder) {

@@ -141,7 +141,7 @@ class Page {
 
     std::string grid() const {
         return figure(embeddedImage("image/png", run_.grid_png, "occupancy grid"),
-                      "Obstacles black, free white, unseen grey.", "grid-picture");
+                      "Obstacles black, free white, unseen gray.", "grid-picture");
     }
 
     std::string loops() const {

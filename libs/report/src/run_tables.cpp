@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "rgbd_graphslam/core/formatted.h"
-#include "rgbd_graphslam/evaluation/statistics.h"
+#include "rgbd_graphslam/metrics/statistics.h"
 #include "rgbd_graphslam/report/html.h"
 
 namespace rgbd_graphslam {

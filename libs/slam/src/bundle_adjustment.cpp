@@ -52,7 +52,7 @@ class Adjuster {
   private:
     /** Tries one damped step and takes it when the cost falls. \return the cost of the step */
     double step(double cost, double& damping) {
-        linearise();
+        linearize();
         const Eigen::VectorXd camera_steps = solveCameras(damping);
         const std::vector<SE3> old_poses = problem_.T_cam_world;
         const std::vector<Eigen::Vector3d> old_points = problem_.points;
@@ -73,7 +73,7 @@ class Adjuster {
         return HUGE_VAL;
     }
 
-    void linearise() {
+    void linearize() {
         camera_H_.assign(problem_.free_cameras, Matrix6d::Zero());
         camera_b_ = Eigen::VectorXd::Zero(6 * problem_.free_cameras);
         blocks_.assign(problem_.points.size(), PointBlock{});

@@ -16,16 +16,16 @@ constexpr double converged = 1e-5;  // m, rad
 constexpr double surface_sigma_m = 0.01;
 /** Pairs further apart show different surfaces, at the coarsest and the finest level. */
 constexpr double widest_pair_m[pyramid_levels] = {0.06, 0.12, 0.25};
-/** Of grey values in units of their standard deviation. */
-constexpr double grey_sigma = 0.15;
+/** Of gray values in units of their standard deviation. */
+constexpr double gray_sigma = 0.15;
 constexpr double least_contrast = 5;
 constexpr double huber_sigmas = 1.5;
-constexpr double steepest_step = 1.08;  // of depth between neighbours on one surface
+constexpr double steepest_step = 1.08;  // of depth between neighbors on one surface
 
 constexpr double least_depth_share = 0.25, least_overlap = 0.35, least_fitting = 0.65;
 /** Of the pairs that must lie on surfaces rather than on their edges. */
 constexpr double least_smooth = 0.3;
-/** Neighbouring pixels err alike: as many count as one. */
+/** Neighboring pixels err alike: as many count as one. */
 constexpr double alike_pixels = 50;
 constexpr double largest_sigma = 0.03;  // m, rad
 constexpr double largest_step_m = 0.6, largest_step_rad = 0.6;
@@ -33,8 +33,8 @@ constexpr double largest_step_m = 0.6, largest_step_rad = 0.6;
 /** The reference with all that does not change while aligning. */
 struct Surface {
     explicit Surface(const DenseView& v) : view(v), camera(v.camera) {
-        points.resize(view.grey.size());
-        normals.resize(view.grey.size(), Eigen::Vector3d::Zero());
+        points.resize(view.gray.size());
+        normals.resize(view.gray.size(), Eigen::Vector3d::Zero());
         for (int y = 0; y < camera.height; ++y) {
             for (int x = 0; x < camera.width; ++x) {
                 points[index(x, y)] = camera.unproject(x, y, view.depth_m[index(x, y)]);
@@ -66,7 +66,7 @@ struct Surface {
     std::vector<Eigen::Vector3d> points, normals;  // m, in the reference's camera
 };
 
-struct GreyStatistics {
+struct GrayStatistics {
     double mean = 0, deviation = 1;
 };
 
@@ -81,7 +81,7 @@ class Level {
   public:
     Level(const DenseView& reference, const DenseView& view, double widest_m)
         : surface_(reference), view_(view), widest_m_(widest_m) {
-        uses_grey_ = reference.contrast() > least_contrast && view.contrast() > least_contrast;
+        uses_gray_ = reference.contrast() > least_contrast && view.contrast() > least_contrast;
     }
 
     void align(SE3& T) {
@@ -102,7 +102,7 @@ class Level {
         if (sharing < least_overlap) return false;
         if (surfaces_ < least_smooth * static_cast<double>(pairs_.size())) return false;
         if (fitting_surfaces_ < least_fitting * surfaces_) return false;
-        if (uses_grey_ && fitting_greys_ < least_fitting * greys_) return false;
+        if (uses_gray_ && fitting_grays_ < least_fitting * grays_) return false;
         const Eigen::SelfAdjointEigenSolver<Matrix6d> solver(hessian_ - informationOfNoise());
         return solver.eigenvalues()[0] > alike_pixels / (largest_sigma * largest_sigma);
     }
@@ -112,12 +112,12 @@ class Level {
     void evaluate(const SE3& T) {
         hessian_.setZero();
         gradient_.setZero();
-        surfaces_ = fitting_surfaces_ = greys_ = fitting_greys_ = 0;
+        surfaces_ = fitting_surfaces_ = grays_ = fitting_grays_ = 0;
         findPairs(T);
-        if (uses_grey_) normaliseGrey();
+        if (uses_gray_) normalizeGray();
         for (const Pair& pair : pairs_) {
             addSurface(pair);
-            if (uses_grey_) addGrey(pair);
+            if (uses_gray_) addGray(pair);
         }
     }
 
@@ -197,30 +197,30 @@ class Level {
         add(distance / sigma, surfaceJacobian(pair.point, normal) / sigma);
     }
 
-    double referenceGrey(int x, int y) const { return surface_.view.grey[surface_.index(x, y)]; }
+    double referenceGray(int x, int y) const { return surface_.view.gray[surface_.index(x, y)]; }
 
     /** Bilinear, with its derivative. */
     double sample(const Eigen::Vector2d& pixel, Eigen::Vector2d& gradient) const {
         const int x = static_cast<int>(pixel.x()), y = static_cast<int>(pixel.y());
         const double a = pixel.x() - x, b = pixel.y() - y;
-        const double g00 = referenceGrey(x, y), g10 = referenceGrey(x + 1, y);
-        const double g01 = referenceGrey(x, y + 1), g11 = referenceGrey(x + 1, y + 1);
+        const double g00 = referenceGray(x, y), g10 = referenceGray(x + 1, y);
+        const double g01 = referenceGray(x, y + 1), g11 = referenceGray(x + 1, y + 1);
         gradient = {(1 - b) * (g10 - g00) + b * (g11 - g01),
                     (1 - a) * (g01 - g00) + a * (g11 - g10)};
         return (1 - b) * ((1 - a) * g00 + a * g10) + b * ((1 - a) * g01 + a * g11);
     }
 
-    void normaliseGrey() {
+    void normalizeGray() {
         Eigen::Vector2d unused;
         of_reference_ = statistics([&](const Pair& p) { return sample(p.pixel, unused); });
-        of_view_ = statistics([&](const Pair& p) { return view_.grey[p.view_pixel]; });
+        of_view_ = statistics([&](const Pair& p) { return view_.gray[p.view_pixel]; });
     }
 
-    template <class Grey>
-    GreyStatistics statistics(Grey&& grey) const {
+    template <class Gray>
+    GrayStatistics statistics(Gray&& gray) const {
         double sum = 0, squares = 0;
         for (const Pair& pair : pairs_) {
-            const double g = grey(pair);
+            const double g = gray(pair);
             sum += g;
             squares += g * g;
         }
@@ -229,15 +229,15 @@ class Level {
         return {mean, std::sqrt(std::max(1.0, squares / count - mean * mean))};
     }
 
-    void addGrey(const Pair& pair) {
+    void addGray(const Pair& pair) {
         Eigen::Vector2d gradient;
-        const double seen = (view_.grey[pair.view_pixel] - of_view_.mean) / of_view_.deviation;
+        const double seen = (view_.gray[pair.view_pixel] - of_view_.mean) / of_view_.deviation;
         const double expected =
             (sample(pair.pixel, gradient) - of_reference_.mean) / of_reference_.deviation;
-        const double residual = (expected - seen) / grey_sigma;
-        ++greys_;
-        fitting_greys_ += std::abs(residual) < 3;
-        const Eigen::Vector2d g = gradient / (of_reference_.deviation * grey_sigma);
+        const double residual = (expected - seen) / gray_sigma;
+        ++grays_;
+        fitting_grays_ += std::abs(residual) < 3;
+        const Eigen::Vector2d g = gradient / (of_reference_.deviation * gray_sigma);
         const Eigen::Vector3d& p = pair.point;
         const Camera& c = surface_.camera;
         const Eigen::Vector3d by_point(
@@ -251,12 +251,12 @@ class Level {
     const Surface surface_;
     const DenseView& view_;
     const double widest_m_;
-    bool uses_grey_ = false;
+    bool uses_gray_ = false;
     std::vector<Pair> pairs_;
-    GreyStatistics of_reference_, of_view_;
+    GrayStatistics of_reference_, of_view_;
     Matrix6d hessian_;
     Vector6d gradient_;
-    int with_depth_ = 0, surfaces_ = 0, fitting_surfaces_ = 0, greys_ = 0, fitting_greys_ = 0;
+    int with_depth_ = 0, surfaces_ = 0, fitting_surfaces_ = 0, grays_ = 0, fitting_grays_ = 0;
     double overlap_ = 0;
 };
 

@@ -42,7 +42,7 @@ class ReprojectionCost final : public ceres::SizedCostFunction<3, pose_size, 3> 
     const Measurement measurement_;
 };
 
-BundleSummary minimise(BundleProblem& problem, int iterations) {
+BundleSummary minimize(BundleProblem& problem, int iterations) {
     std::vector<PoseBlock> poses(problem.T_cam_world.size());
     for (std::size_t c = 0; c < poses.size(); ++c) store(problem.T_cam_world[c], poses[c].data());
     LeftPerturbation manifold;
@@ -84,10 +84,10 @@ BundleSummary minimise(BundleProblem& problem, int iterations) {
 }  // namespace
 
 BundleSummary adjustBundleSparse(BundleProblem& problem, int max_iterations, bool mark_outliers) {
-    if (!mark_outliers) return minimise(problem, max_iterations);
-    const BundleSummary first = minimise(problem, (max_iterations + 1) / 2);
+    if (!mark_outliers) return minimize(problem, max_iterations);
+    const BundleSummary first = minimize(problem, (max_iterations + 1) / 2);
     markBundleOutliers(problem);
-    BundleSummary second = minimise(problem, (max_iterations + 1) / 2);
+    BundleSummary second = minimize(problem, (max_iterations + 1) / 2);
     second.initial_cost = first.initial_cost;
     second.iterations += first.iterations;
     return second;

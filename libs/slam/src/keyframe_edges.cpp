@@ -10,7 +10,7 @@ namespace {
 
 constexpr int strong_covisibility = 100;
 /** What an edge is worth when two keyframes share too little to tell: 5 cm, 3 degrees. */
-const Vector6d weak_sigma = (Vector6d() << 0.05, 0.05, 0.05, 0.05, 0.05, 0.05).finished();
+const Vector6d dead_reckoned_sigma = (Vector6d() << 0.05, 0.05, 0.05, 0.05, 0.05, 0.05).finished();
 constexpr int fewest_for_information = 10;
 /** The same where nothing was measured between them: 10 m, 3 rad. */
 const Vector6d unknown_sigma = (Vector6d() << 10, 10, 10, 3, 3, 3).finished();
@@ -27,13 +27,13 @@ Matrix6d KeyframeEdges::informationOf(int keyframe, const std::vector<int>& land
     const Keyframe& k = map_.keyframe(keyframe);
     const auto matches = matchesOf(k.frame, landmarks, map_, sensor_);
     if (static_cast<int>(matches.size()) < fewest_for_information) {
-        return informationFrom(weak_sigma);
+        return informationFrom(dead_reckoned_sigma);
     }
     // Both keyframes measure the landmarks, so the relative pose has twice the variance of one.
     return 0.5 * solvePose(camera_, matches, k.T_cam_world).information;
 }
 
-/** Landmarks of a keyframe, one a keypoint, without those that the other does not see. */
+/** Landmarks of a keyframe, one per keypoint, without those that the other does not see. */
 std::vector<int> KeyframeEdges::sharedLandmarks(int keyframe, int other) const {
     std::vector<int> shared = map_.keyframe(keyframe).landmarks;
     for (int& landmark : shared) {
@@ -95,8 +95,8 @@ PoseGraph KeyframeEdges::graph(const std::vector<PoseEdge>& loops) const {
     PoseGraph graph;
     const int keyframes = static_cast<int>(map_.keyframes().size());
     for (int k = 0; k < keyframes; ++k) graph.nodes.push_back(map_.T_cam_world(k).inverse());
-    graph.held = map_.heldCount();
-    for (int k = std::max(1, graph.held); k < keyframes; ++k) {
+    graph.fixed = map_.fixedCount();
+    for (int k = std::max(1, graph.fixed); k < keyframes; ++k) {
         const PoseEdge last_to_k = odometry(k);
         graph.edges.push_back(last_to_k);
         const std::vector<PoseEdge> farther = covisibility(last_to_k);
@@ -109,7 +109,7 @@ PoseGraph KeyframeEdges::graph(const std::vector<PoseEdge>& loops) const {
 std::vector<std::pair<int, int>> KeyframeEdges::covisiblePairs() const {
     std::vector<std::pair<int, int>> pairs;
     const int keyframes = static_cast<int>(map_.keyframes().size());
-    for (int k = std::max(1, map_.heldCount()); k < keyframes; ++k) {
+    for (int k = std::max(1, map_.fixedCount()); k < keyframes; ++k) {
         for (const Covisibility& c : fartherThanLast(k)) pairs.emplace_back(c.keyframe, k);
     }
     return pairs;

@@ -10,9 +10,9 @@
 namespace rgbd_graphslam {
 namespace {
 
-constexpr int neighbours_joined = 8;
-constexpr int neighbours_triangulated = 6;
-constexpr int neighbours_culled = 30;
+constexpr int neighbors_joined = 8;
+constexpr int neighbors_triangulated = 6;
+constexpr int neighbors_culled = 30;
 constexpr double join_window_px = 3;
 constexpr int join_hamming = 50;
 constexpr int probation_keyframes = 3;
@@ -26,11 +26,11 @@ LocalMapper::LocalMapper(const SlamOptions& options, const Camera& camera, SlamM
 
 void LocalMapper::insert(int keyframe) {
     createFromDepth(keyframe);
-    if (options_.mapper.triangulate) triangulateWithNeighbours(keyframe);
-    joinWithNeighbours(keyframe);
+    if (options_.mapper.triangulate) triangulateWithNeighbors(keyframe);
+    joinWithNeighbors(keyframe);
     cullLandmarks(keyframe);
     cullKeyframes(keyframe);
-    if (map_.heldCount() > 0) forgetOldest(keyframe);
+    if (map_.fixedCount() > 0) forgetOldest(keyframe);
     if (options_.mapper.local_adjustment && keyframe != 0) startAdjustment(keyframe);
 }
 
@@ -39,11 +39,11 @@ void LocalMapper::startAdjustment(int keyframe) {
     if (adjustment.problem.observations.empty()) return;  // the first of its part
     adjusted_keyframe_ = keyframe;
     const int iterations = options_.mapper.iterations;
-    pending_ = std::make_unique<AdjustmentAtWork>(
+    pending_ = std::make_unique<BackgroundBundleAdjustment>(
         std::move(adjustment), [iterations](BundleProblem& p) { adjustBundle(p, iterations); });
 }
 
-double LocalMapper::handOver() {
+double LocalMapper::applyPendingAdjustment() {
     if (!pending_) return 0;
     const double cpu_ms = pending_->wait();
     pending_->adjustment().apply(map_);
@@ -73,10 +73,10 @@ void LocalMapper::createFromDepth(int id) {
     }
 }
 
-void LocalMapper::triangulateWithNeighbours(int id) {
-    auto neighbours = map_.covisible(id);
-    if (neighbours.size() > neighbours_triangulated) neighbours.resize(neighbours_triangulated);
-    for (const Covisibility& c : neighbours) {
+void LocalMapper::triangulateWithNeighbors(int id) {
+    auto neighbors = map_.covisible(id);
+    if (neighbors.size() > neighbors_triangulated) neighbors.resize(neighbors_triangulated);
+    for (const Covisibility& c : neighbors) {
         for (const TriangulatedPoint& point :
              triangulateBetween(camera_, map_, options_, id, c.keyframe)) {
             recent_.push_back(map_.addLandmark(point.position, id, point.keypoint_a));
@@ -85,10 +85,10 @@ void LocalMapper::triangulateWithNeighbours(int id) {
     }
 }
 
-void LocalMapper::joinWithNeighbours(int id) {
-    auto neighbours = map_.covisible(id);
-    if (neighbours.size() > neighbours_joined) neighbours.resize(neighbours_joined);
-    for (const Covisibility& c : neighbours) joinInto(c.keyframe, map_.keyframe(id).landmarks);
+void LocalMapper::joinWithNeighbors(int id) {
+    auto neighbors = map_.covisible(id);
+    if (neighbors.size() > neighbors_joined) neighbors.resize(neighbors_joined);
+    for (const Covisibility& c : neighbors) joinInto(c.keyframe, map_.keyframe(id).landmarks);
 }
 
 // A copy, since fusing changes the list of the keyframe that it may come from.
@@ -179,40 +179,40 @@ double LocalMapper::redundancy(const Keyframe& keyframe) const {
 }
 
 void LocalMapper::cullKeyframes(int id) {
-    auto neighbours = map_.covisible(id);
-    if (neighbours.size() > neighbours_culled) neighbours.resize(neighbours_culled);
-    for (const Covisibility& c : neighbours) {
-        if (map_.held(c.keyframe) || c.keyframe >= id - 1) continue;
+    auto neighbors = map_.covisible(id);
+    if (neighbors.size() > neighbors_culled) neighbors.resize(neighbors_culled);
+    for (const Covisibility& c : neighbors) {
+        if (map_.isFixed(c.keyframe) || c.keyframe >= id - 1) continue;
         if (redundancy(map_.keyframe(c.keyframe)) <= options_.keyframes.cull_share) continue;
         const auto others = map_.covisible(c.keyframe, 1);
         if (!others.empty()) map_.cull(c.keyframe, others.front().keyframe);
     }
 }
 
-/** Beside a held map only the latest keyframes are kept, so that memory stays flat. The one that
- *  goes must still move with its own part of the map. */
+/** Beside a fixed map only the latest keyframes are kept, so that memory stays flat. The one that
+ *  goes must still move with its own submap. */
 void LocalMapper::forgetOldest(int newest) {
     std::vector<int> living;
-    for (int id = map_.heldCount(); id <= newest; ++id) {
+    for (int id = map_.fixedCount(); id <= newest; ++id) {
         if (!map_.keyframe(id).culled) living.push_back(id);
     }
-    if (static_cast<int>(living.size()) <= options_.mapper.localising_keyframes) return;
+    if (static_cast<int>(living.size()) <= options_.mapper.localization_keyframes) return;
     const auto seen_with = map_.covisible(living[0]);
     const auto held = std::find_if(seen_with.begin(), seen_with.end(),
-                                   [&](const Covisibility& c) { return map_.held(c.keyframe); });
-    const int part = map_.keyframe(living[0]).part;
+                                   [&](const Covisibility& c) { return map_.isFixed(c.keyframe); });
+    const int submap = map_.keyframe(living[0]).submap;
     const auto next = std::find_if(living.begin() + 1, living.end(),
-                                   [&](int id) { return map_.keyframe(id).part == part; });
+                                   [&](int id) { return map_.keyframe(id).submap == submap; });
     const int younger = next == living.end() ? living[1] : *next;
     map_.cull(living[0], held == seen_with.end() ? younger : held->keyframe);
 }
 
-/** The newest keyframe and its best neighbours move; others that see the same points hold them. */
+/** The newest keyframe and its best neighbors move; others that see the same points hold them. */
 MapAdjustment LocalMapper::adjustmentAround(int id) const {
     std::vector<int> free = {id};
     for (const Covisibility& c : map_.covisible(id)) {
         if (static_cast<int>(free.size()) >= options_.mapper.window_keyframes) break;
-        if (!map_.held(c.keyframe)) free.push_back(c.keyframe);
+        if (!map_.isFixed(c.keyframe)) free.push_back(c.keyframe);
     }
     std::sort(free.begin(), free.end());
     std::vector<int> landmarks = landmarksSeenBy(free, map_);

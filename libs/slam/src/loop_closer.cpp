@@ -10,7 +10,7 @@ namespace rgbd_graphslam {
 namespace {
 
 constexpr int fewest_votes = 15;
-constexpr int fused_neighbours = 10;
+constexpr int fused_neighbors = 10;
 }  // namespace
 
 LoopCloser::LoopCloser(const SlamOptions& options, const Camera& camera, SlamMap& map)
@@ -42,7 +42,7 @@ int LoopCloser::firstTooNear(int keyframe) const {
 
 /** Best-voted earlier keyframes within reach that the map does not connect with this one yet. */
 std::vector<int> LoopCloser::candidatesFor(int keyframe) const {
-    const auto neighbours = map_.covisible(keyframe, 1);
+    const auto neighbors = map_.covisible(keyframe, 1);
     const int newest = firstTooNear(keyframe);
     std::vector<int> candidates;
     for (const PlaceVote& vote : index_.query(placeDescriptors(keyframe))) {
@@ -52,7 +52,7 @@ std::vector<int> LoopCloser::candidatesFor(int keyframe) const {
         if (map_.keyframe(vote.keyframe).culled || !plausibility_.mightSee(keyframe, vote.keyframe))
             continue;
         const bool connected =
-            std::any_of(neighbours.begin(), neighbours.end(),
+            std::any_of(neighbors.begin(), neighbors.end(),
                         [&](const Covisibility& c) { return c.keyframe == vote.keyframe; });
         if (!connected) candidates.push_back(vote.keyframe);
     }
@@ -188,10 +188,10 @@ void LoopCloser::fuse(const VerifiedLoop& loop, LocalMapper& mapper) {
             map_.fuse(young, old);
         }
     }
-    auto neighbours = map_.covisible(keyframe);
-    if (neighbours.size() > fused_neighbours) neighbours.resize(fused_neighbours);
+    auto neighbors = map_.covisible(keyframe);
+    if (neighbors.size() > fused_neighbors) neighbors.resize(fused_neighbors);
     mapper.joinInto(keyframe, loop.landmarks);
-    for (const Covisibility& c : neighbours) mapper.joinInto(c.keyframe, loop.landmarks);
+    for (const Covisibility& c : neighbors) mapper.joinInto(c.keyframe, loop.landmarks);
 }
 
 }  // namespace rgbd_graphslam

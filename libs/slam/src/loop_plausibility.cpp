@@ -11,15 +11,15 @@ namespace {
 
 /** Disagreement of a loop with the map that needs no long path to explain. */
 constexpr Drift least_drift{0.3, 0.3};
-/** Between parts of the map. */
+/** Between submaps. */
 constexpr Drift any_drift{1e6, 1e6};
 /** A weak link makes the way as unsure as this much of it. */
-constexpr double weak_link_m = 25;
+constexpr double dead_reckoned_link_m = 25;
 /** Farther apart, two views have hardly a descriptor in common. */
 constexpr Drift widest_view{4, 1.2};
 /** A loop with fewer inliers than this share of the best one's is no contender. */
 constexpr double contender_share = 0.5;
-/** A loop is unheeded if the optimised graph leaves more than this of what it asked. */
+/** A loop is unheeded if the optimized graph leaves more than this of what it asked. */
 constexpr double unheeded_m = 0.05, unheeded_share = 0.25;
 
 }  // namespace
@@ -28,7 +28,8 @@ void LoopPlausibility::travelTo(int keyframe) {
     if (travelled_m_.empty()) travelled_m_.push_back(0);
     for (int k = static_cast<int>(travelled_m_.size()); k <= keyframe; ++k) {
         const SE3 step = map_.T_cam_world(k - 1) * map_.T_cam_world(k).inverse();
-        const double unsure = map_.keyframe(k).link == Link::Weak ? weak_link_m : 0;
+        const double unsure =
+            map_.keyframe(k).link == Link::DeadReckoned ? dead_reckoned_link_m : 0;
         travelled_m_.push_back(travelled_m_.back() + step.t.norm() + unsure);
     }
 }
@@ -45,7 +46,7 @@ double LoopPlausibility::pathLength(int from, int to) const {
 }
 
 Drift LoopPlausibility::greatestDrift(int from, int to) const {
-    if (map_.keyframe(from).part != map_.keyframe(to).part) return any_drift;
+    if (map_.keyframe(from).submap != map_.keyframe(to).submap) return any_drift;
     const double gathered = options_.max_drift_share * pathLength(from, to);
     return {least_drift.m + gathered, least_drift.rad + gathered};
 }

@@ -70,7 +70,7 @@ void MapAdjustment::apply(SlamMap& map) const {
     }
     for (std::size_t o = 0; o < problem.observations.size(); ++o) {
         const bool doubted = problem.observations[o].outlier;
-        if (!doubted || observation_keyframe_[o] < map.heldCount()) continue;
+        if (!doubted || observation_keyframe_[o] < map.fixedCount()) continue;
         const int landmark = landmarks_[problem.observations[o].point];
         if (isStill(landmark, map)) map.removeObservation(landmark, observation_keyframe_[o]);
     }
@@ -154,7 +154,7 @@ std::vector<int> landmarksSeenBy(const std::vector<int>& keyframes, const SlamMa
     return landmarks;
 }
 
-AdjustmentAtWork::AdjustmentAtWork(MapAdjustment adjustment, const Solve& solve)
+BackgroundBundleAdjustment::BackgroundBundleAdjustment(MapAdjustment adjustment, const Solve& solve)
     : adjustment_(std::move(adjustment)) {
     cpu_ms_ = std::async(std::launch::async, [this, solve] {
         const ThreadClock clock;
@@ -163,11 +163,11 @@ AdjustmentAtWork::AdjustmentAtWork(MapAdjustment adjustment, const Solve& solve)
     });
 }
 
-AdjustmentAtWork::~AdjustmentAtWork() {
+BackgroundBundleAdjustment::~BackgroundBundleAdjustment() {
     if (cpu_ms_.valid()) cpu_ms_.wait();
 }
 
-double AdjustmentAtWork::wait() {
+double BackgroundBundleAdjustment::wait() {
     return cpu_ms_.get();
 }
 

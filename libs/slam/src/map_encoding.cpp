@@ -138,15 +138,15 @@ void put(const LandmarkPatch& seen, ByteWriter& out) {
     const Patch& patch = seen.patch;
     out.put(static_cast<std::uint8_t>(seen.octave));
     for (const float f : {patch.corner.x, patch.corner.y}) out.put(f);
-    out.putBytes({reinterpret_cast<const char*>(patch.grey.data()), patch.grey.size()});
+    out.putBytes({reinterpret_cast<const char*>(patch.gray.data()), patch.gray.size()});
 }
 
 LandmarkPatch getPatch(ByteReader& in, int levels) {
     LandmarkPatch seen;
     Patch& patch = seen.patch;
     seen.octave = getOctave(in, levels);
-    for (float* f : {&patch.corner.x, &patch.corner.y}) *f = getFloat(in, Patch::centre);
-    std::memcpy(patch.grey.data(), in.getBytes(patch.grey.size()).data(), patch.grey.size());
+    for (float* f : {&patch.corner.x, &patch.corner.y}) *f = getFloat(in, Patch::center);
+    std::memcpy(patch.gray.data(), in.getBytes(patch.gray.size()).data(), patch.gray.size());
     return seen;
 }
 
@@ -216,7 +216,7 @@ Link getLink(ByteReader& in) {
 void put(const Keyframe& keyframe, ByteWriter& out) {
     put(keyframe.frame, out);
     encodePose(keyframe.T_cam_world, out);
-    out.putCount(keyframe.part);
+    out.putCount(keyframe.submap);
     put(keyframe.link, out);
     putFlag(keyframe.culled, out);
     if (!keyframe.culled) return;
@@ -231,7 +231,7 @@ Keyframe getKeyframe(ByteReader& in, int id, std::size_t keyframes, const Camera
     keyframe.frame = getFrame(in, camera, levels);
     keyframe.landmarks.assign(keyframe.frame.keypoints.size(), no_landmark);
     keyframe.T_cam_world = decodePose(in);
-    keyframe.part = getIndex(in, keyframes, "part");
+    keyframe.submap = getIndex(in, keyframes, "submap");
     keyframe.link = getLink(in);
     keyframe.culled = getFlag(in);
     if (!keyframe.culled) return keyframe;

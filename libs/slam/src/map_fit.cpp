@@ -29,7 +29,7 @@ void requireFits(const MapSnapshot& map, const FeatureOptions& features, const C
     }
     if (use == MapUse::Extend && !sameView(map.camera, camera)) {
         throw Error("the map was made by a camera of another calibration, so it cannot be extended",
-                    "localise in it, or make both rawlogs with one calibration");
+                    "localize in it, or make both rawlogs with one calibration");
     }
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "rgbd_graphslam/slam/dense_odometry.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
-#include "rgbd_graphslam/slam/weak_tracker.h"
 
 namespace rgbd_graphslam {
 namespace {

@@ -114,7 +114,7 @@ PoseGraphSummary optimizePoseGraph(PoseGraph& graph, const PoseGraphOptions& opt
                                  blocks[edge.from].data(), blocks[edge.to].data());
     }
     problem.SetParameterBlockConstant(blocks[fixed].data());
-    for (int held = 0; held < graph.held; ++held) {
+    for (int fixed = 0; held < graph.fixed; ++held) {
         problem.SetParameterBlockConstant(blocks[held].data());
     }
     ceres::Solver::Summary summary;

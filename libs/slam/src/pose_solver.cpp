@@ -29,7 +29,7 @@ class Solver {
 
     PoseSolution solve() {
         for (int round = 0; round < rounds; ++round) {
-            minimise();
+            minimize();
             kernel_ = PoseKernel::Huber;
             if (!reclassify() && round > 0) break;
         }
@@ -79,7 +79,7 @@ class Solver {
         equations.cost += robust_r.cost;
     }
 
-    void minimise() {
+    void minimize() {
         double damping = 1e-6;
         NormalEquations equations = build(pose_);
         for (int step = 0; step < steps_a_round; ++step) {

@@ -19,7 +19,7 @@ Matrix6d covarianceOf(const PoseSpread& spread);
 /** Standard deviations of the least certain direction, of position and of rotation. */
 PoseSpread weakestDirection(const Matrix6d& covariance);
 
-/** Of the first keyframe of a part of the map, which defines where that is. */
+/** Of the first keyframe of a submap, which defines where that is. */
 constexpr int no_reference = -1;
 
 /** How uncertain a keyframe is against the one that it is tied to. */

@@ -19,7 +19,7 @@ SE3 alignThree(const std::vector<PointMatch>& matches,
         cam.col(i) = points_cam[sample[i]];
     }
     const Eigen::Matrix4d T = Eigen::umeyama(world, cam, false);
-    return {orthonormalised(T.topLeftCorner<3, 3>()), T.topRightCorner<3, 1>()};
+    return {orthonormalized(T.topLeftCorner<3, 3>()), T.topRightCorner<3, 1>()};
 }
 
 int iterationsNeeded(double inlier_share, int most) {

@@ -62,7 +62,7 @@ std::optional<LocatedFrame> Relocalizer::find(Frame& frame,
 std::vector<int> Relocalizer::keyframesAround(const Prediction& predicted) const {
     std::vector<std::pair<double, int>> near;
     for (const Keyframe& keyframe : map_.keyframes()) {
-        if (keyframe.culled || keyframe.part != predicted.part) continue;
+        if (keyframe.culled || keyframe.submap != predicted.submap) continue;
         const Distance apart = between(keyframe.T_cam_world, predicted.T_cam_world);
         if (apart.m > predicted.prior.scale() * widest_view_m || apart.rad > widest_view_rad)
             continue;
@@ -105,8 +105,8 @@ std::optional<Relocalizer::Candidate> Relocalizer::lookAt(
 Relocalizer::Candidate Relocalizer::judged(Frame frame, LocatedFrame located,
                                            const std::optional<Prediction>& predicted) const {
     Candidate candidate;
-    candidate.part = map_.keyframe(map_.observers(located.landmarks).front().keyframe).part;
-    if (predicted && predicted->part == candidate.part) {
+    candidate.submap = map_.keyframe(map_.observers(located.landmarks).front().keyframe).submap;
+    if (predicted && predicted->submap == candidate.submap) {
         candidate.agreement =
             predicted->prior.judge(predicted->T_cam_world * located.T_cam_world.inverse());
     }
@@ -131,7 +131,7 @@ const Relocalizer::Candidate* Relocalizer::likeliest(
     if (!best || best->agreement == Agreement::Confirmed) return best;
     for (const Candidate& other : candidates) {
         const Distance apart = between(best->located.T_cam_world, other.located.T_cam_world);
-        const bool elsewhere = other.part != best->part ||
+        const bool elsewhere = other.submap != best->submap ||
                                apart.m > sceneScale(best->frame) * one_place_m ||
                                apart.rad > one_place_rad;
         if (elsewhere && other.located.inliers > rival_share * best->located.inliers) {
@@ -155,7 +155,7 @@ bool Relocalizer::believes(const Candidate& candidate, bool after_a_loss) {
         const SE3 before = supposed_->T_cam_keyframe * map_.T_cam_world(supposed_->keyframe);
         const Distance moved = between(located.T_cam_world, before);
         const double passed_s = stamp_s - supposed_->stamp_s;
-        goes_on = map_.keyframe(supposed_->keyframe).part == candidate.part &&
+        goes_on = map_.keyframe(supposed_->keyframe).submap == candidate.submap &&
                   moved.m < sceneScale(candidate.frame) * (slack_m + fastest_m_s * passed_s) &&
                   moved.rad < slack_rad + fastest_rad_s * passed_s;
     }

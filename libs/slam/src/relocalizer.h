@@ -12,7 +12,7 @@ namespace rgbd_graphslam {
 struct Prediction {
     SE3 T_cam_world;
     /** Part of the map that the pose belongs to. */
-    int part = 0;
+    int submap = 0;
     /** Up to this frame. */
     MotionPrior prior;
 };
@@ -45,7 +45,7 @@ class Relocalizer {
     struct Candidate {
         Frame frame;
         LocatedFrame located;
-        int part = 0;
+        int submap = 0;
         Agreement agreement = Agreement::Possible;
     };
     /** A place that the frames before may have shown, by one of its keyframes. */

@@ -40,7 +40,7 @@ void SlamMap::save(ByteWriter& out) const {
         out.putCount(keyframes);
     }
     putNumbers(culled_, out);
-    out.putCount(held_);
+    out.putCount(fixed_);
 }
 
 void SlamMap::load(ByteReader& in, const Camera& camera) {
@@ -62,7 +62,7 @@ void SlamMap::load(ByteReader& in, const Camera& camera) {
     for (const int keyframe : culled_) {
         if (!keyframes_[keyframe].culled) throw DamagedBytes("a living keyframe among the culled");
     }
-    held_ = getIndex(in, keyframes + 1, "number of held keyframes");
+    fixed_ = getIndex(in, keyframes + 1, "number of fixed keyframes");
 }
 
 /** Each dead landmark is named once: its number will be given to another. */
@@ -78,9 +78,9 @@ void SlamMap::loadDead(ByteReader& in) {
     }
 }
 
-int SlamMap::addKeyframe(Frame frame, const SE3& T_cam_world, int part, Link link) {
+int SlamMap::addKeyframe(Frame frame, const SE3& T_cam_world, int submap, Link link) {
     Keyframe keyframe;
-    keyframe.part = part;
+    keyframe.submap = submap;
     keyframe.link = link;
     keyframe.id = static_cast<int>(keyframes_.size());
     keyframe.landmarks.assign(frame.keypoints.size(), no_landmark);
@@ -93,17 +93,17 @@ int SlamMap::addKeyframe(Frame frame, const SE3& T_cam_world, int part, Link lin
     return keyframes_.back().id;
 }
 
-void SlamMap::joinPart(int part, int into, const SE3& T_new_old) {
+void SlamMap::mergeSubmap(int submap, int into, const SE3& T_new_old) {
     for (Landmark& landmark : landmarks_) {
         if (!landmark.alive) continue;
-        if (keyframes_[landmark.observations.front().keyframe].part != part) continue;
+        if (keyframes_[landmark.observations.front().keyframe].submap != submap) continue;
         landmark.position = T_new_old * landmark.position;
         landmark.view_direction = T_new_old.R * landmark.view_direction;
     }
     const SE3 T_old_new = T_new_old.inverse();
     for (Keyframe& keyframe : keyframes_) {
-        if (keyframe.part != part) continue;
-        keyframe.part = into;
+        if (keyframe.submap != submap) continue;
+        keyframe.submap = into;
         keyframe.T_cam_world = keyframe.T_cam_world * T_old_new;
     }
 }

@@ -57,14 +57,14 @@ void MapperOptions::describe(OptionVisitor& v) {
               "Fixed keyframes that anchor local bundle adjustment");
     v.integer("iterations", iterations, 1, 100, "", "Iterations of local bundle adjustment");
     v.integer(
-        "hand_over_frames", hand_over_frames, 1, 100, "frames",
+        "adjustment_delay_frames", adjustment_delay_frames, 1, 100, "frames",
         "Frames after a keyframe at which the adjusted map is applied (fixed, so that results do "
         "not depend on timing)");
     v.integer("loop_iterations", loop_iterations, 1, 100, "",
               "Iterations of global bundle adjustment after a loop");
-    v.integer("loop_hand_over_frames", loop_hand_over_frames, 1, 10000, "frames",
+    v.integer("loop_adjustment_delay_frames", loop_adjustment_delay_frames, 1, 10000, "frames",
               "Frames after a loop at which the globally adjusted map is applied");
-    v.integer("localising_keyframes", localising_keyframes, 2, 1000000, "keyframes",
+    v.integer("localization_keyframes", localization_keyframes, 2, 1000000, "keyframes",
               "Temporary keyframes a --localize run keeps; older ones are discarded");
     v.flag("triangulate", triangulate, "Triangulate landmarks without depth from two views");
     v.flag("local_adjustment", local_adjustment,
@@ -91,12 +91,12 @@ void LoopOptions::describe(OptionVisitor& v) {
 }
 
 void RecoveryOptions::describe(OptionVisitor& v) {
-    v.flag("weak_motion", weak_motion,
+    v.flag("dead_reckoning", dead_reckoning,
            "When the map is not seen, follow the camera by the last frame, dense alignment, "
            "odometry or gyroscope");
-    v.integer("weak_keyframe_after", weak_keyframe_after, 1, 10000, "frames",
+    v.integer("dead_reckoned_keyframe_after", dead_reckoned_keyframe_after, 1, 10000, "frames",
               "Consecutive dead-reckoned frames after which a keyframe is inserted anyway");
-    v.integer("new_part_after", new_part_after, 1, 10000, "frames",
+    v.integer("new_submap_after", new_submap_after, 1, 10000, "frames",
               "Consecutive lost frames after which a new submap is started");
     v.integer("fewest_keypoints", fewest_keypoints, 50, 10000, "keypoints",
               "Minimum keypoints with depth to insert such a keyframe or start a submap");

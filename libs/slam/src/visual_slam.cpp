@@ -15,8 +15,8 @@ const char* toString(FrameOrigin origin) {
             return "tracked";
         case FrameOrigin::Recovered:
             return "recovered";
-        case FrameOrigin::Weak:
-            return "weak";
+        case FrameOrigin::DeadReckoned:
+            return "dead_reckoned";
         case FrameOrigin::Uncertain:
             return "uncertain";
         case FrameOrigin::Lost:
@@ -55,7 +55,7 @@ std::vector<PoseEdge> VisualSlam::findLoops(int keyframe) {
     if (!impl_->options.loops.enabled) return loops;
     impl_->times.measure("find-loops", [&] { loops = impl_->closer.findLoops(keyframe); });
     // What comes next asks where keyframes are, and adjusts everything anew.
-    if (!loops.empty()) impl_->handOverAll();
+    if (!loops.empty()) impl_->applyPendingAdjustments();
     for (const PoseEdge& loop : loops) {
         impl_->join(loop);
         impl_->uncertainty.closeLoop(loop.from, loop.to);
@@ -72,20 +72,20 @@ std::vector<std::pair<int, int>> VisualSlam::covisibility() const {
 }
 
 void VisualSlam::correct(const std::vector<SE3>& T_world_keyframe) {
-    impl_->handOver();
+    impl_->applyPendingAdjustment();
     bool closed = false;
     impl_->times.measure("correct",
                          [&] { closed = impl_->closer.correct(T_world_keyframe, impl_->mapper); });
     if (!closed || !impl_->options.mapper.loop_adjustment) return;
-    impl_->full_adjuster.start(impl_->options.mapper.loop_iterations);
+    impl_->global_bundle_adjuster.start(impl_->options.mapper.loop_iterations);
     impl_->frames_since_loop = 0;
 }
 
 void VisualSlam::finish() {
-    impl_->handOverAll();
+    impl_->applyPendingAdjustments();
     if (!impl_->options.mapper.final_adjustment) return;
     impl_->times.measure("final-adjustment",
-                         [&] { impl_->full_adjuster.adjustNow(final_iterations); });
+                         [&] { impl_->global_bundle_adjuster.adjustNow(final_iterations); });
 }
 
 std::vector<TrackedFrame> VisualSlam::frames() const {
@@ -97,7 +97,7 @@ std::vector<KeyframeView> VisualSlam::keyframes() const {
     for (const Keyframe& keyframe : impl_->map.keyframes()) {
         views.push_back({keyframe.id, keyframe.frame.stamp_s,
                          impl_->map.T_cam_world(keyframe.id).inverse(), keyframe.culled,
-                         keyframe.part});
+                         keyframe.submap});
     }
     return views;
 }

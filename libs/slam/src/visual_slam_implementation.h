@@ -2,20 +2,20 @@
 #pragma once
 #include <optional>
 
-#include "kept_frames.h"
+#include "fallback_tracker.h"
 #include "keyframe_decision.h"
 #include "keyframe_edges.h"
 #include "pose_verdict.h"
 #include "relocalizer.h"
 #include "rgbd_graphslam/features/frame_builder.h"
-#include "rgbd_graphslam/slam/full_adjuster.h"
+#include "rgbd_graphslam/slam/global_bundle_adjuster.h"
 #include "rgbd_graphslam/slam/local_mapper.h"
 #include "rgbd_graphslam/slam/loop_closer.h"
 #include "rgbd_graphslam/slam/stage_times.h"
 #include "rgbd_graphslam/slam/tracker.h"
 #include "rgbd_graphslam/slam/visual_slam.h"
 #include "standstill.h"
-#include "weak_motion.h"
+#include "trajectory_record.h"
 
 namespace rgbd_graphslam {
 
@@ -29,10 +29,10 @@ class VisualSlam::Implementation {
           map(options.features.scale_factor, options.features.levels),
           tracker(options, camera, map),
           mapper(options, camera, map),
-          full_adjuster(options, camera, map),
+          global_bundle_adjuster(options, camera, map),
           closer(options, camera, map),
           edges(options.sensor, camera, map),
-          weak_motion(options.recovery, tracker),
+          fallback(options.recovery, tracker),
           relocalizer(options, camera, map, closer, tracker),
           decision(options.keyframes) {}
 
@@ -45,10 +45,10 @@ class VisualSlam::Implementation {
     /** \throws Error when the frame is not later than the last one */
     TrackedFrame track(Frame frame);
     /** Writes the local adjustment into the map, if one is under way. */
-    void handOver();
+    void applyPendingAdjustment();
     /** The adjustment of everything as well. */
-    void handOverAll();
-    /** Brings two parts of the map together where a loop says. */
+    void applyPendingAdjustments();
+    /** Brings two submaps together where a loop says. */
     void join(const PoseEdge& loop);
 
     const SlamOptions options;
@@ -57,31 +57,31 @@ class VisualSlam::Implementation {
     SlamMap map;
     Tracker tracker;
     LocalMapper mapper;
-    FullAdjuster full_adjuster;
+    GlobalBundleAdjuster global_bundle_adjuster;
     LoopCloser closer;
     const KeyframeEdges edges;
-    WeakMotion weak_motion;
+    FallbackTracker fallback;
     Relocalizer relocalizer;
     KeyframeDecision decision;
-    KeptFrames records;
+    TrajectoryRecord records;
     MapUncertainty uncertainty;
     int frames_since_keyframe = 0;
     int frames_since_loop = 0;
     /** Of the next keyframe to the last one. */
     Link link = Link::Tracked;
     /** Whether any frame of this run has been located. */
-    bool placed = false;
+    bool initialized = false;
     mutable StageTimes times;
 
   private:
-    void start(Frame frame, KeptFrame& record);
+    void start(Frame frame, FrameRecord& record);
     std::optional<Prediction> prediction(const Frame& frame) const;
-    std::optional<LocatedFrame> trackBelievably(Frame& frame, KeptFrame& record);
-    std::optional<LocatedFrame> locate(Frame& frame, KeptFrame& record);
-    void keep(Frame frame, LocatedFrame located, KeptFrame& record);
-    void stray(Frame frame, KeptFrame& record);
-    void beginAnew(Frame frame, KeptFrame& record);
-    int insertKeyframe(const Frame& frame, const LocatedFrame& located, int part, int reference,
+    std::optional<LocatedFrame> trackBelievably(Frame& frame, FrameRecord& record);
+    std::optional<LocatedFrame> locate(Frame& frame, FrameRecord& record);
+    void acceptTracked(Frame frame, LocatedFrame located, FrameRecord& record);
+    void handleTrackingLoss(Frame frame, FrameRecord& record);
+    void startSubmap(Frame frame, FrameRecord& record);
+    int insertKeyframe(const Frame& frame, const LocatedFrame& located, int submap, int reference,
                        const KeyframeLink& tie);
 };
 

@@ -35,9 +35,9 @@ cv::Mat thumbnail(const cv::Mat& picture) {
 /** Near is red, far (5 m) is blue, none is black. */
 cv::Mat depthThumbnail(const std::string& path) {
     const cv::Mat depth = cv::imread(path, cv::IMREAD_UNCHANGED);
-    cv::Mat grey, colored;
-    depth.convertTo(grey, CV_8UC1, -255.0 / 25000, 255);
-    cv::applyColorMap(grey, colored, cv::COLORMAP_JET);
+    cv::Mat gray, colored;
+    depth.convertTo(gray, CV_8UC1, -255.0 / 25000, 255);
+    cv::applyColorMap(gray, colored, cv::COLORMAP_JET);
     colored.setTo(0, depth == 0);
     return thumbnail(colored);
 }

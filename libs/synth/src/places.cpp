@@ -299,24 +299,24 @@ Scene plainRoom(std::uint64_t seed) {
     Scene scene;
     Random random = Random::of(seed, 6);
     const int white = scene.addMaterial(paintPlaster(Bgr(200, 208, 212), 1.5, random), 2.5);
-    const int grey = scene.addMaterial(paintPlaster(Bgr(150, 155, 158), 1.5, random), 2.5);
+    const int gray = scene.addMaterial(paintPlaster(Bgr(150, 155, 158), 1.5, random), 2.5);
     const auto block = [&](double x, double y, double yaw, const Eigen::Vector3d& size, int paint,
                            double z = 0) {
         addBox(scene, scene.quads, standing(x, y, z, yaw), size, BoxSkin(Skin{paint}));
     };
-    block(3, 2.5, 0, {6, 5, 0.1}, grey, -0.1);
+    block(3, 2.5, 0, {6, 5, 0.1}, gray, -0.1);
     block(3, 2.5, 0, {6, 5, 0.1}, white, 2.6);
     for (double y : {-0.05, 5.05}) block(3, y, 0, {6, 0.1, 2.6}, white);
     for (double x : {-0.05, 6.05}) block(x, 2.5, 0, {0.1, 5, 2.6}, white);
     block(0.3, 0.3, 0, {0.6, 0.6, 2.6}, white);
     block(5.5, 4.3, 0, {0.5, 0.5, 2.6}, white);
     for (int step = 0; step < 4; ++step)
-        block(5.7 - 0.3 * step, 1.0, 0, {0.3, 1.4, 0.8 - 0.2 * step}, grey);
+        block(5.7 - 0.3 * step, 1.0, 0, {0.3, 1.4, 0.8 - 0.2 * step}, gray);
     block(2.4, 4.6, 0, {1.4, 0.8, 0.75}, white);
-    block(2.1, 4.7, 0.5, {0.4, 0.3, 0.35}, grey, 0.75);
+    block(2.1, 4.7, 0.5, {0.4, 0.3, 0.35}, gray, 0.75);
     block(0.5, 2.9, 0.2, {0.6, 0.9, 1.1}, white);
     block(3.6, 0.35, 0, {1.2, 0.5, 1.5}, white);
-    block(3.4, 0.3, 0.4, {0.35, 0.3, 0.4}, grey, 1.5);
+    block(3.4, 0.3, 0.4, {0.35, 0.3, 0.4}, gray, 1.5);
     for (const SE3& frame : {standing(0.01, 1.4, 1.1, 0), standing(1.6, 0.01, 1.3, kPi / 2),
                              standing(5.99, 3.2, 1.2, kPi), standing(4.0, 4.99, 1.2, -kPi / 2)})
         addRectangle(scene, scene.quads, frame, 0.3, 0.42, {scene.addMaterial(paintPaper(random))});

@@ -151,9 +151,9 @@ class Mesher {
         };
         const Vector3d point = blend(quad.corners);
         const Vector2d uv = blend(quad.uv);
-        const Vector3d centre =
+        const Vector3d center =
             0.25 * (quad.corners[0] + quad.corners[1] + quad.corners[2] + quad.corners[3]);
-        const Vector3d light = lightAt(quad, point + inwards(centre - point));
+        const Vector3d light = lightAt(quad, point + inwards(center - point));
         Vertex result;
         result.xyzrgba.pt = {static_cast<float>(point.x()), static_cast<float>(point.y()),
                              static_cast<float>(point.z())};
@@ -163,10 +163,10 @@ class Mesher {
         return result;
     }
 
-    /** Away from the rim, where the neighbouring face would cover the sample. */
-    static Vector3d inwards(const Vector3d& to_centre) {
-        const double distance = to_centre.norm();
-        return distance < 1e-9 ? to_centre : to_centre * std::min(1.0, 0.08 / distance);
+    /** Away from the rim, where the neighboring face would cover the sample. */
+    static Vector3d inwards(const Vector3d& to_center) {
+        const double distance = to_center.norm();
+        return distance < 1e-9 ? to_center : to_center * std::min(1.0, 0.08 / distance);
     }
 
     Vector3d lightAt(const Quad& quad, const Vector3d& point) const {
@@ -240,7 +240,7 @@ cv::Mat Renderer::Impl::draw(const SE3& T_world_cam, const Vector2d& shift_px,
     mrpt::img::TCamera intrinsics;
     intrinsics.ncols = camera_.width;
     intrinsics.nrows = camera_.height;
-    // OpenGL's pixel centres are at halves, ours at whole numbers.
+    // OpenGL's pixel centers are at halves, ours at whole numbers.
     intrinsics.setIntrinsicParamsFromValues(camera_.fx, camera_.fy, camera_.cx + 0.5 + shift_px.x(),
                                             camera_.cy + 0.5 + shift_px.y());
     mrpt::opengl::CCamera eye;

@@ -34,21 +34,21 @@ Exposure failingLight(double t) {
 }
 
 /** Eye and gaze on ellipses about a point, the gaze ahead of the eye; one round. */
-Motion strollAround(const Vector3d& centre, double radius_x, double radius_y, double seconds,
+Motion strollAround(const Vector3d& center, double radius_x, double radius_y, double seconds,
                     double ahead_rad, std::uint64_t seed) {
     const int count = 12;
     std::vector<Vector3d> eyes, targets;
     for (int i = 0; i < count; ++i) {
         const double angle = 2 * kPi * i / count, gaze = angle + ahead_rad;
-        eyes.push_back(centre + Vector3d(radius_x * std::cos(angle), radius_y * std::sin(angle),
+        eyes.push_back(center + Vector3d(radius_x * std::cos(angle), radius_y * std::sin(angle),
                                          0.12 * std::sin(2 * angle)));
-        targets.push_back(centre + Vector3d(3.2 * std::cos(gaze), 2.6 * std::sin(gaze),
+        targets.push_back(center + Vector3d(3.2 * std::cos(gaze), 2.6 * std::sin(gaze),
                                             -0.5 + 0.15 * std::cos(3 * angle)));
     }
     return handHeld({eyes, seconds / count, true}, {targets, seconds / count, true}, {}, seed);
 }
 
-/** Control points of a walk and of its gaze, one pair every `spacing` metres. */
+/** Control points of a walk and of its gaze, one pair every `spacing` meters. */
 struct Walk {
     std::vector<Vector3d> eyes, targets;
 };

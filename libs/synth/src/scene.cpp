@@ -78,11 +78,11 @@ void addCylinder(std::vector<Quad>& quads, const SE3& frame, double radius, doub
         return cap.uv_min + share.cwiseProduct(cap.uv_max - cap.uv_min);
     };
     for (int i = 0; i + 1 < sides; i += 2) {
-        const Vector3d centre(0, 0, height);
+        const Vector3d center(0, 0, height);
         const Vector3d a = rim(i, top_radius, height), b = rim(i + 1, top_radius, height),
                        c = rim(i + 2, top_radius, height);
-        quads.push_back({{frame * centre, frame * a, frame * b, frame * c},
-                         {capUv(centre, top_radius), capUv(a, top_radius), capUv(b, top_radius),
+        quads.push_back({{frame * center, frame * a, frame * b, frame * c},
+                         {capUv(center, top_radius), capUv(a, top_radius), capUv(b, top_radius),
                           capUv(c, top_radius)},
                          cap.material});
     }

@@ -21,8 +21,8 @@ cv::Mat normalField(cv::Size size, Random& random) {
     return field;
 }
 
-/** Neighbouring readings come from overlapping windows of the pattern: half of the noise is shared
- *  with the neighbours. Deviation 1. */
+/** Neighboring readings come from overlapping windows of the pattern: half of the noise is shared
+ *  with the neighbors. Deviation 1. */
 cv::Mat correlatedField(cv::Size size, Random& random) {
     const cv::Mat shared = normalField(size, random), own = normalField(size, random);
     cv::Mat smooth;

@@ -43,7 +43,7 @@ void writeList(const std::string& path, const char* title, const char* kind, int
 
 void writeTruth(const std::string& path, const Motion& motion, int frames) {
     writeStream(path, [&](std::ostream& out) {
-        out << "# true poses of the colour camera's optical frame, world z up, floor at z = 0\n"
+        out << "# true poses of the color camera's optical frame, world z up, floor at z = 0\n"
                "# timestamp tx ty tz qx qy qz qw\n";
         forEachReading(100, frames, [&](double t, long) {
             const SE3 pose = motion.T_world_cam(t);
@@ -103,11 +103,11 @@ void writeMotionFiles(const std::string& folder, const FilmOptions& options, con
     const InertialModel model = options.noise ? InertialModel{} : InertialModel{0, 0, 0, 0};
     const InertialUnit unit(motion, model, options.seed);
     writeVectors(folder + "/accelerometer.txt",
-                 "# specific force in the colour camera's optical frame, m/s^2\n"
+                 "# specific force in the color camera's optical frame, m/s^2\n"
                  "# timestamp ax ay az\n",
                  frames, [&](double t, long i) { return unit.read(t, i).specific_force; });
     writeVectors(folder + "/gyroscope.txt",
-                 "# angular rate in the colour camera's optical frame, rad/s\n"
+                 "# angular rate in the color camera's optical frame, rad/s\n"
                  "# timestamp wx wy wz\n",
                  frames, [&](double t, long i) { return unit.read(t, i).angular_rate; });
     if (motion.T_world_base) writeOdometry(folder + "/odometry.txt", options, motion, frames);
@@ -129,7 +129,7 @@ void writeCameraIni(const std::string& folder, const Camera& camera, bool on_rob
 
 void writeSurface(const std::string& path, const Scene& scene) {
     writeStream(path, [&](std::ostream& out) {
-        out << "ply\nformat binary_little_endian 1.0\ncomment true surface, metres, z up\n"
+        out << "ply\nformat binary_little_endian 1.0\ncomment true surface, meters, z up\n"
             << "element vertex " << 4 * scene.quads.size()
             << "\nproperty float x\nproperty float y\nproperty float z\n"
             << "element face " << 2 * scene.quads.size()

@@ -89,15 +89,15 @@ Bgr vividColor(Random& random) {
     const double red = random.uniform(150, 240), green = random.uniform(40, 160);
     Bgr color{random.uniform(10, 90), green, red};
     for (int i = 2; i > 0; --i) std::swap(color[i], color[random.below(i + 1)]);
-    const double grey = (color[0] + color[1] + color[2]) / 3, fading = random.uniform(0.15, 0.6);
-    for (int i = 0; i < 3; ++i) color[i] += fading * (grey - color[i]);
+    const double gray = (color[0] + color[1] + color[2]) / 3, fading = random.uniform(0.15, 0.6);
+    for (int i = 0; i < 3; ++i) color[i] += fading * (gray - color[i]);
     return random.chance(0.2) ? scaled(color, 0.35) : color;
 }
 
 Bgr quietColor(Random& random) {
-    const double grey = random.uniform(60, 190);
-    return {grey + random.uniform(-25, 25), grey + random.uniform(-15, 15),
-            grey + random.uniform(-25, 25)};
+    const double gray = random.uniform(60, 190);
+    return {gray + random.uniform(-25, 25), gray + random.uniform(-15, 15),
+            gray + random.uniform(-25, 25)};
 }
 
 cv::Mat fractalNoise(cv::Size size, cv::Size cells, int octaves, double persistence,

@@ -15,7 +15,7 @@ cv::Point anyPixel(cv::Size size, Random& random);
 /** A plain picture. */
 cv::Mat canvas(cv::Size size, const Bgr& color);
 
-/** Adds `strength` grey levels times the field (CV_32FC1) to all channels. */
+/** Adds `strength` gray levels times the field (CV_32FC1) to all channels. */
 void addRelief(cv::Mat& picture, const cv::Mat& field, double strength);
 
 Bgr scaled(const Bgr& color, double factor);

@@ -236,13 +236,13 @@ cv::Mat paintWhiteboard(Random& random) {
 
 cv::Mat paintClock() {
     cv::Mat picture = canvas({256, 256}, Bgr(40, 40, 40));
-    const cv::Point centre(128, 128);
-    cv::circle(picture, centre, 118, Bgr(240, 240, 240), cv::FILLED, cv::LINE_AA);
+    const cv::Point center(128, 128);
+    cv::circle(picture, center, 118, Bgr(240, 240, 240), cv::FILLED, cv::LINE_AA);
     for (int hour = 0; hour < 12; ++hour)
-        cv::ellipse(picture, centre, cv::Size(104, 104), 0, hour * 30 - 2, hour * 30 + 2, kInk, 10,
+        cv::ellipse(picture, center, cv::Size(104, 104), 0, hour * 30 - 2, hour * 30 + 2, kInk, 10,
                     cv::LINE_AA);
-    cv::line(picture, centre, {176, 92}, kInk, 9, cv::LINE_AA);
-    cv::line(picture, centre, {120, 40}, kInk, 6, cv::LINE_AA);
+    cv::line(picture, center, {176, 92}, kInk, 9, cv::LINE_AA);
+    cv::line(picture, center, {120, 40}, kInk, 6, cv::LINE_AA);
     return picture;
 }
 

@@ -93,7 +93,7 @@ class RenderTarget {
     /** Does nothing when the size stays. */
     void resize(const Eigen::Vector2i& size_px);
     void bind() const;
-    /** Copies the colours to the window's back buffer, as large as that is.
+    /** Copies the colors to the window's back buffer, as large as that is.
      *  \param area of the window, in pixels from its top-left corner */
     void copyToWindow(const cv::Rect& area, const Eigen::Vector2i& window_px) const;
     /** OpenGL depths of the square around a pixel, counted from the top; 1 outside. */

@@ -30,7 +30,7 @@ class PanelSet {
     bool anyOverOthers() const { return help_->visible() || files_->visible() || hint_->visible(); }
     /** Shows a tooltip beside the mouse, or none. \return whether something changed */
     bool hint(const std::string& text, const Eigen::Vector2i& mouse);
-    /** Greys out what a run cannot show. */
+    /** Grays out what a run cannot show. */
     void offer(const RunContents& contents);
     /** Those that show something else with every frame of a running SLAM. */
     std::vector<nanogui::Widget*> liveWidgets();

@@ -52,11 +52,11 @@ ViewPanel::ViewPanel(nanogui::Widget* screen, ViewerSettings& settings,
     : nanogui::Window(screen, "View"), settings_(settings), changed_(std::move(changed)) {
     column(this, 1);
     for (const ViewSwitch& entry : viewSwitches()) addSwitch(entry);
-    by_height_ = new nanogui::CheckBox(this, "colour by height", [this](bool on) {
+    by_height_ = new nanogui::CheckBox(this, "color by height", [this](bool on) {
         settings_.colors = on ? "height" : "camera";
         changed_();
     });
-    by_height_->setTooltip("Points, mesh and octree in colours of their height. Key: H");
+    by_height_->setTooltip("Points, mesh and octree in colors of their height. Key: H");
     new nanogui::Label(this, "point size");
     point_size_ = new nanogui::Slider(this);
     point_size_->setFixedWidth(content_px);
@@ -201,7 +201,7 @@ ExportPanel::ExportPanel(nanogui::Widget* screen) : nanogui::Window(screen, "Wri
     add("points as PLY", ExportFormat::Ply, &S::points);
     add("points as PCD", ExportFormat::Pcd, &S::points);
     add("mesh as PLY", ExportFormat::Mesh, &S::mesh);
-    add("octree with colours as OT", ExportFormat::ColorOctree, &S::octree);
+    add("octree with colors as OT", ExportFormat::ColorOctree, &S::octree);
     add("octree, small, as BT", ExportFormat::BinaryOctree, &S::octree);
 }
 

@@ -27,7 +27,7 @@ class ViewPanel : public nanogui::Window {
   public:
     ViewPanel(nanogui::Widget* screen, ViewerSettings& settings, std::function<void()> changed);
 
-    /** Greys out what a run cannot show; tooltips tell why. */
+    /** Grays out what a run cannot show; tooltips tell why. */
     void offer(const RunContents& contents);
     /** Shows settings that were changed elsewhere. */
     void refresh();
@@ -44,7 +44,7 @@ class ViewPanel : public nanogui::Window {
     nanogui::Slider* point_size_ = nullptr;
 };
 
-/** Colour and depth of a keyframe or of the live frame. */
+/** Color and depth of a keyframe or of the live frame. */
 class PicturePanel : public nanogui::Window {
   public:
     PicturePanel(nanogui::Widget* screen, ViewerSettings& settings, std::function<void()> changed);
@@ -116,7 +116,7 @@ class ExportPanel : public nanogui::Window {
 
     std::function<void(ExportFormat format)> on_export = [](ExportFormat) {};
     std::function<void()> on_close = [] {};
-    /** Greys out what a run does not have; tooltips tell why. */
+    /** Grays out what a run does not have; tooltips tell why. */
     void offer(const RunContents& contents);
 
   private:

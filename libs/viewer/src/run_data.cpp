@@ -169,11 +169,11 @@ RunData loadMapped(const std::string& folder) {
 }
 
 /** The map of the one run with the way of the other. */
-RunData loadLocalised(LocalisedRun localised, const std::string& folder) {
-    RunData run = loadMapped(localised.map_folder);
+RunData loadLocalized(LocalizedRun localized, const std::string& folder) {
+    RunData run = loadMapped(localized.map_folder);
     run.folder = folder;
-    run.trajectory = std::move(localised.trajectory);
-    run.unplaced_s = std::move(localised.unplaced_s);
+    run.trajectory = std::move(localized.trajectory);
+    run.unplaced_s = std::move(localized.unplaced_s);
     run.truth = {};
     readNotes(folder, run);
     return run;
@@ -192,7 +192,7 @@ RunData loadRun(const std::string& path) {
         throw Error("'" + path + "' is neither a folder nor a .ply",
                     "give the output folder of rgbd-slam");
     }
-    if (auto localised = readLocalisedRun(path)) return loadLocalised(std::move(*localised), path);
+    if (auto localized = readLocalizedRun(path)) return loadLocalized(std::move(*localized), path);
     return loadMapped(path);
 }
 

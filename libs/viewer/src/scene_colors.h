@@ -1,4 +1,4 @@
-/** Colours of the marks in the image of a running SLAM. */
+/** Colors of the marks in the image of a running SLAM. */
 #pragma once
 #include "rgbd_graphslam/mapping/scene_colors.h"
 

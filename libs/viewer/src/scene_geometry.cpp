@@ -43,7 +43,7 @@ void clear() {
 
 /** For the shader. */
 std::vector<float> paletteValues() {
-    static_assert(height_palette_size == 32, "the shader's palette has as many colours");
+    static_assert(height_palette_size == 32, "the shader's palette has as many colors");
     std::vector<float> values;
     for (const Rgba& color : heightPalette())
         for (const int c : {0, 1, 2}) values.push_back(static_cast<float>(color[c]) / 255);

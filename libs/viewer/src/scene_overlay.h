@@ -16,7 +16,7 @@ struct SceneOverlay {
     cv::Rect area;
     double m_per_px = 0.01;  // in the middle of the view
     std::vector<SceneLabel> labels;
-    /** Lowest and highest of the colours' range, where they stand for heights. */
+    /** Lowest and highest of the colors' range, where they stand for heights. */
     std::optional<std::pair<double, double>> heights_m;
 };
 

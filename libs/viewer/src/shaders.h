@@ -3,7 +3,7 @@
 
 namespace rgbd_graphslam {
 
-/** Points and triangles in their colours or those of their height, up to a height. */
+/** Points and triangles in their colors or those of their height, up to a height. */
 extern const char* const surface_vertex_shader;
 extern const char* const surface_fragment_shader;
 

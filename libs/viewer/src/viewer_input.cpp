@@ -18,7 +18,7 @@ std::vector<Shortcut> ViewerWindow::viewShortcuts() {
         {GLFW_KEY_F, "F", "show everything", [this] { fit(); }},
         {GLFW_KEY_T, "T", "look from above", [this] { lookDown(); }},
         {GLFW_KEY_C, "C", "follow the camera", [this] { toggleFollowing(); }},
-        {GLFW_KEY_H, "H", "colour by height", [this] { toggleColors(); }},
+        {GLFW_KEY_H, "H", "color by height", [this] { toggleColors(); }},
     };
     // GLFW names letters by their capitals.
     for (const ViewSwitch& entry : viewSwitches()) {

@@ -17,12 +17,12 @@ void ViewerSettings::describe(OptionVisitor& v) {
     v.integer("window_y", window_y, -farthest, farthest, "px", "Upper edge of the window");
     v.integer("window_width", window_width, 320, farthest, "px", "Width of the window");
     v.integer("window_height", window_height, 240, farthest, "px", "Height of the window");
-    v.flag("points", points, "Coloured points");
+    v.flag("points", points, "Colored points");
     v.flag("mesh", mesh, "Triangles of mesh.ply");
     v.flag("octree", octree, "Occupied cells of the octree");
     v.flag("free_space", free_space, "Free cells of the octree");
     v.flag("grid", grid, "2-D grid");
-    v.flag("floor", floor, "Lines every metre on the floor");
+    v.flag("floor", floor, "Lines every meter on the floor");
     v.flag("trajectory", trajectory, "Estimated trajectory");
     v.flag("truth", truth, "True trajectory");
     v.flag("errors", errors, "Lines from estimated to true positions");

@@ -173,7 +173,7 @@ void ViewerWindow::compose() {
     }
 }
 
-/** Distances, scale bar and colours of heights, over the scene and below the panels. */
+/** Distances, scale bar and colors of heights, over the scene and below the panels. */
 void ViewerWindow::drawOverlay() {
     SceneOverlay overlay;
     overlay.area = panels_->freeArea();

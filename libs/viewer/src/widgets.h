@@ -15,7 +15,7 @@ namespace rgbd_graphslam {
  *  \param background of labels, which are transparent */
 void drawOver(NVGcontext* context, nanogui::Widget& widget, const nanogui::Color& background);
 
-/** A colour that stands for something. */
+/** A color that stands for something. */
 class ColorWidget : public nanogui::Widget {
   public:
     ColorWidget(nanogui::Widget* parent, const nanogui::Vector2i& size_px, const Rgba& color);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double unit_m = 0.001;
 
-/** Depth (m) of a wall at z = 2 and a board at z = 1 before it, in the colour camera's frame, seen
+/** Depth (m) of a wall at z = 2 and a board at z = 1 before it, in the color camera's frame, seen
  *  along a ray from a place in that frame; 0 for nothing. */
 double cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
     for (const double z : {1.0, 2.0}) {
@@ -67,7 +67,7 @@ TEST(DepthRegistration, theSameCameraChangesNothing) {
     EXPECT_EQ(cv::norm(registered, depth, cv::NORM_INF), 0);
 }
 
-TEST(DepthRegistration, depthComesToLieWhereColourSeesIt) {
+TEST(DepthRegistration, depthComesToLieWhereColorSeesIt) {
     const Camera depth_camera{160, 120, 145, 146, 78, 61, {}};
     const Camera color_camera{200, 150, 150, 151, 100.5, 73, {0.1, -0.2, 0.001, -0.002, 0.05}};
     const SE3 T_color_depth(rotationExp({0.01, -0.02, 0.03}), {0.06, 0.01, -0.02});
@@ -81,7 +81,7 @@ TEST(DepthRegistration, depthComesToLieWhereColourSeesIt) {
     EXPECT_GT(inside.holes, 0) << "what the board hid from the depth camera";
 }
 
-TEST(DepthRegistration, whatIsBehindTheColourCameraOrTooFarIsLeftOut) {
+TEST(DepthRegistration, whatIsBehindTheColorCameraOrTooFarIsLeftOut) {
     const Camera camera{16, 12, 13, 13, 7.5, 5.5, {}};
     const cv::Mat1w depth(12, 16, std::uint16_t{60000});
     EXPECT_EQ(cv::countNonZero(DepthRegistration(

@@ -101,7 +101,7 @@ cv::Mat1w readings(int width, int height, int seed, int nearest, int farthest) {
 
 TEST_F(ImportPlausibility, smallDepthIsResampledWithoutNewReadings) {
     for (int i = 0; i < 3; ++i) add(noise(64, 48, i), readings(32, 24, i, 0, 5000));
-    EXPECT_THAT(import().notes, Contains(HasSubstr("32x24 pixels is resampled to colour's 64x48")));
+    EXPECT_THAT(import().notes, Contains(HasSubstr("32x24 pixels is resampled to color's 64x48")));
     const cv::Mat1w small = readings(32, 24, 1, 0, 5000);
     const cv::Mat1w large = toRgbdImage(frames().at(1)).depth;
     ASSERT_EQ(large.size(), cv::Size(64, 48));
@@ -124,7 +124,7 @@ TEST_F(ImportPlausibility, depthOfAFractionIsResampledWhereAspectsAgree) {
 
 TEST_F(ImportPlausibility, depthOfAnotherAspectIsRefused) {
     add(noise(64, 48, 0), readings(64, 36, 0, 500, 4000));
-    EXPECT_THAT(complaint(), HasSubstr("64x36 pixels, colour 64x48"));
+    EXPECT_THAT(complaint(), HasSubstr("64x36 pixels, color 64x48"));
     EXPECT_THAT(complaint(), HasSubstr("--register"));
 }
 
@@ -260,7 +260,7 @@ TEST(RobotLog, depthOfItsOwnCameraIsRegistered) {
                       static_cast<int>(frame->rangeImage.cols()), CV_16UC1,
                       frame->rangeImage.data());
     const RgbdImage image = toRgbdImage(frame);
-    EXPECT_EQ(image.depth.size(), image.grey.size());
+    EXPECT_EQ(image.depth.size(), image.gray.size());
     EXPECT_GT(cv::countNonZero(image.depth), 0);
     if (raw.size() != image.depth.size()) return;
     EXPECT_GT(cv::countNonZero(image.depth != raw), cv::countNonZero(raw) / 2);

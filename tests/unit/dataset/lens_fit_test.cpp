@@ -18,7 +18,7 @@ TEST(LensFit, brownsModelStaysAsItIs) {
     EXPECT_EQ(camera.distortion, (std::array<double, 5>{}));
 }
 
-/** An Azure Kinect's colour camera: its first coefficients mean little without the others. */
+/** An Azure Kinect's color camera: its first coefficients mean little without the others. */
 TEST(LensFit, aRationalLensIsFollowedWithinAFewPixels) {
     const std::vector<double> D = {0.52, -2.74, 0.0004, -0.0003, 1.59, 0.40, -2.55, 1.51};
     Camera camera = kinect_azure;

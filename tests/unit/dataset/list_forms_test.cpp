@@ -39,7 +39,7 @@ class ListForms : public ::testing::Test {
         folder_.write("s/" + name, text);
     }
 
-    /** One line per frame. \param form takes the places of {}: stamp, colour, stamp, depth */
+    /** One line per frame. \param form takes the places of {}: stamp, color, stamp, depth */
     std::string pairs(double unit_s = 1, int decimals = 6, const std::string& end = "\n") const {
         std::string text;
         for (int i = 0; i < frames; ++i) {
@@ -113,7 +113,7 @@ TEST_F(ListForms, associationsOfThreeColumns) {
     write("associations.txt", text);
     expectFrames(read());
     write("associations.txt", "1.5 a.png b.png\n");
-    EXPECT_THAT(problemOf([&] { read(); }), HasSubstr("associations.txt:1: cannot tell colour"));
+    EXPECT_THAT(problemOf([&] { read(); }), HasSubstr("associations.txt:1: cannot tell color"));
 }
 
 TEST_F(ListForms, decimalCommasBackslashesQuotesAndColumns) {

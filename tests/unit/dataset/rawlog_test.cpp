@@ -86,7 +86,7 @@ TEST_P(RawlogStorageTest, imagesKeepTheirBits) {
         const RgbdImage image = toRgbdImage(frames[i]);
         EXPECT_TRUE(samePixels(image.color, small_sequence::color(i))) << i;
         EXPECT_TRUE(samePixels(image.depth, small_sequence::depth(i))) << i;
-        EXPECT_EQ(image.grey.type(), CV_8UC1);
+        EXPECT_EQ(image.gray.type(), CV_8UC1);
         EXPECT_NEAR(image.stamp_s, small_sequence::colorStamp(i), 0.5e-6);
         EXPECT_EQ(static_cast<float>(image.depth_unit_m), 1 / 5000.f);
     }
@@ -112,12 +112,12 @@ TEST_P(RawlogStorageTest, exportGivesTheFolderBack) {
 INSTANTIATE_TEST_SUITE_P(Both, RawlogStorageTest,
                          ::testing::Values(RawlogStorage::Embedded, RawlogStorage::Compact));
 
-/** How far colours are off on average, grey levels. */
+/** How far colors are off on average, gray levels. */
 double meanDifference(const cv::Mat& a, const cv::Mat& b) {
     return cv::norm(a, b, cv::NORM_L1) / (3.0 * a.total());
 }
 
-TEST_F(RawlogTest, smallStorageLosesLittleColourAndNothingElse) {
+TEST_F(RawlogTest, smallStorageLosesLittleColorAndNothingElse) {
     const cv::Mat smooth(small_sequence::height, small_sequence::width, CV_8UC3, {40, 150, 90});
     for (int i = 0; i < frame_count; ++i)
         cv::imwrite(folder_ / ("s/" + small_sequence::colorFile(i)), smooth);
@@ -270,7 +270,7 @@ TEST_F(RawlogTest, mrptsOwnReaderTakesIt) {
     EXPECT_THAT(whole.getCommentText(), HasSubstr("\n1305031453.359684 = 1305031453.365184\n"));
 }
 
-/** Unsynchronised stamps and odd trailing digits as a real camera gives them. */
+/** Unsynchronized stamps and odd trailing digits as a real camera gives them. */
 TEST(RawlogOfRealFrames, roundTripKeepsEveryBit) {
     const char* data = std::getenv("RGBD_DATA");
     const std::string clip =
@@ -303,7 +303,7 @@ TEST(RawlogOfRealFrames, roundTripKeepsEveryBit) {
     }
 }
 
-/** A depth camera with other pixels, turned a little against the colour camera. */
+/** A depth camera with other pixels, turned a little against the color camera. */
 CameraSetup depthCamera() {
     CameraSetup setup;
     setup.camera = Camera{24, 18, 22, 22, 11.5, 8.5, {}};
@@ -312,7 +312,7 @@ CameraSetup depthCamera() {
     return setup;
 }
 
-TEST_F(RawlogTest, depthOfAnotherCameraIsWarpedToColour) {
+TEST_F(RawlogTest, depthOfAnotherCameraIsWarpedToColor) {
     small_sequence::make(folder_, "s", 2);
     const CameraSetup color_camera = readCameraFile(folder_ / "s/camera.ini");
     const CameraSetup depth_camera = depthCamera();
@@ -384,7 +384,7 @@ TEST_F(RawlogTest, otherLensModelsAreRefused) {
     EXPECT_THAT(problemOf([&] { cameraOf(*frame); }), HasSubstr("fisheye or rational"));
 }
 
-TEST_F(RawlogTest, framesWithoutDepthOrColourOrOfUnequalSizeAreNamed) {
+TEST_F(RawlogTest, framesWithoutDepthOrColorOrOfUnequalSizeAreNamed) {
     const auto complaint = [](const CObservation3DRangeScan::Ptr& frame) -> std::string {
         try {
             toRgbdImage(frame);
@@ -394,7 +394,7 @@ TEST_F(RawlogTest, framesWithoutDepthOrColourOrOfUnequalSizeAreNamed) {
         return "no error";
     };
     const auto frame = makeRgbdObservation({}, 12.25);
-    EXPECT_THAT(complaint(frame), HasSubstr("stamp 12.250000: no colour"));
+    EXPECT_THAT(complaint(frame), HasSubstr("stamp 12.250000: no color"));
     setColor(*frame, small_sequence::color(0));
     EXPECT_THAT(complaint(frame), HasSubstr("no depth"));
     setDepth(*frame, cv::Mat::zeros(5, 5, CV_16UC1));

@@ -17,7 +17,7 @@ struct Frame {
     cv::Mat1w depth;
 };
 
-/** Boxes of their own colour before a wall, with texture and noise on everything. */
+/** Boxes of their own color before a wall, with texture and noise on everything. */
 Frame boxes(int seed, cv::Point depth_shift) {
     cv::RNG random(seed);
     Frame frame{cv::Mat3b(height, width, cv::Vec3b(120, 120, 120)),

@@ -47,7 +47,7 @@ double difference(const cv::Mat& a, const cv::Mat& b) {
     return cv::norm(a(inside), b(inside), cv::NORM_INF);
 }
 
-TEST(RosImages, everyColourEncodingGivesTheSamePicture) {
+TEST(RosImages, everyColorEncodingGivesTheSamePicture) {
     const cv::Mat bgr = smoothPicture();
     for (const auto& [encoding, code] :
          std::vector<std::pair<std::string, int>>{{"rgb8", cv::COLOR_BGR2RGB},

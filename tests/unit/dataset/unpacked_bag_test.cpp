@@ -33,12 +33,12 @@ using ::testing::Not;
 constexpr int frames = 4;
 const std::string camera_frame = "/openni_rgb_optical_frame";
 
-/** Depth in metres as the benchmark's bags have it, without reading where the PNG has 0. */
+/** Depth in meters as the benchmark's bags have it, without reading where the PNG has 0. */
 cv::Mat inMetres(const cv::Mat& depth) {
-    cv::Mat1f metres;
-    depth.convertTo(metres, CV_32F, 1.0 / 5000);
-    metres.setTo(std::numeric_limits<float>::quiet_NaN(), depth == 0);
-    return metres;
+    cv::Mat1f meters;
+    depth.convertTo(meters, CV_32F, 1.0 / 5000);
+    meters.setTo(std::numeric_limits<float>::quiet_NaN(), depth == 0);
+    return meters;
 }
 
 cv::Mat inRgb(const cv::Mat& color) {
@@ -47,7 +47,7 @@ cv::Mat inRgb(const cv::Mat& color) {
     return rgb;
 }
 
-cv::Mat millimetres(int value) {
+cv::Mat millimeters(int value) {
     return {24, 32, CV_16UC1, cv::Scalar(value)};
 }
 
@@ -89,11 +89,11 @@ class Bag : public ::testing::Test {
         folder_.write("f/rgbd/accelerometer.txt", acceleration);
     }
 
-    /** One frame of colour and registered depth. */
+    /** One frame of color and registered depth. */
     void addFrame(double stamp_s) {
         lines_.addImage("/camera/color/image_raw", "color", stamp_s, "bgr8",
                         small_sequence::color(0));
-        lines_.addImage("/camera/depth/image_raw", "color", stamp_s, "16UC1", millimetres(1500));
+        lines_.addImage("/camera/depth/image_raw", "color", stamp_s, "16UC1", millimeters(1500));
     }
 
     RgbdSequence read(const BagOptions& options = {}) {
@@ -209,13 +209,13 @@ TEST_F(Bag, millimetresKeepTheirValuesAndMetresThatAreFarFitIn) {
     const cv::Mat depth = cv::imread(
         unpacked.sequence().folder + "/" + unpacked.sequence().depth[0].file, cv::IMREAD_UNCHANGED);
     ASSERT_EQ(depth.type(), CV_16UC1);
-    EXPECT_EQ(cv::norm(depth, millimetres(20500), cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(depth, millimeters(20500), cv::NORM_INF), 0);
 }
 
 TEST_F(Bag, compressedImagesKeepTheirBytes) {
     std::vector<unsigned char> jpeg, png;
     cv::imencode(".jpg", small_sequence::color(0), jpeg);
-    cv::imencode(".png", millimetres(1500), png);
+    cv::imencode(".png", millimeters(1500), png);
     const std::string settings(12, '\0');
     lines_.addCompressed("/c/image_raw/compressed", "c", 1, "rgb8;~jpeg~compressed~bgr8",
                          {jpeg.begin(), jpeg.end()});
@@ -231,28 +231,28 @@ TEST_F(Bag, compressedImagesKeepTheirBytes) {
     EXPECT_EQ(sequence.camera->camera.width, 32) << "read from the JPEG's header";
 }
 
-TEST_F(Bag, colourIsChosenBeforeInfraredAndAlignedDepthBeforeRaw) {
+TEST_F(Bag, colorIsChosenBeforeInfraredAndAlignedDepthBeforeRaw) {
     for (const double stamp_s : {1.0, 2.0}) {
         lines_.addImage("/camera/infra1/image_rect_raw", "ir", stamp_s, "mono8",
                         cv::Mat(24, 32, CV_8UC1, cv::Scalar(7)));
-        lines_.addImage("/camera/depth/image_rect_raw", "depth", stamp_s, "16UC1", millimetres(1));
+        lines_.addImage("/camera/depth/image_rect_raw", "depth", stamp_s, "16UC1", millimeters(1));
         lines_.addImage("/camera/aligned_depth_to_color/image_raw", "color", stamp_s, "16UC1",
-                        millimetres(2));
+                        millimeters(2));
         lines_.addImage("/camera/color/image_raw", "color", stamp_s, "rgb8",
                         small_sequence::color(0));
     }
     const RgbdSequence sequence = read();
-    EXPECT_THAT(sequence.notes, Contains(HasSubstr("colour: /camera/color/image_raw, rgb8, 32x24, "
+    EXPECT_THAT(sequence.notes, Contains(HasSubstr("color: /camera/color/image_raw, rgb8, 32x24, "
                                                    "2 images at 1.0 Hz")));
     EXPECT_THAT(sequence.notes,
                 Contains(AllOf(HasSubstr("depth: /camera/aligned_depth_to_color/image_raw"),
-                               HasSubstr("registered to colour"))));
+                               HasSubstr("registered to color"))));
     EXPECT_THAT(sequence.notes,
                 Contains(AllOf(HasSubstr("left out: "), HasSubstr("/camera/infra1/image_rect_raw"),
                                HasSubstr("/camera/depth/image_rect_raw"))));
     const RgbdSequence other =
         read({"/camera/infra1/image_rect_raw", "/camera/depth/image_rect_raw"});
-    EXPECT_THAT(other.notes, Contains(HasSubstr("colour: /camera/infra1")));
+    EXPECT_THAT(other.notes, Contains(HasSubstr("color: /camera/infra1")));
     EXPECT_THAT(other.notes, Contains(HasSubstr("depth: /camera/depth/image_rect_raw")));
     EXPECT_THAT(
         problemOf([&] {
@@ -344,10 +344,10 @@ class RawDepth : public Bag {
     void addStreams(const std::string& color, const std::string& depth, const std::string& frame,
                     const std::string& encoding) {
         lines_.addImage(color, "color", 1, "rgb8", small_sequence::color(0));
-        lines_.addImage(depth, frame, 1, encoding, millimetres(1500));
+        lines_.addImage(depth, frame, 1, encoding, millimeters(1500));
     }
 
-    /** Where the depth camera lies in the colour camera's optical frame. */
+    /** Where the depth camera lies in the color camera's optical frame. */
     static Eigen::Vector3d depthInColor(const RgbdSequence& sequence) {
         return (T_optical_from_mrpt * sequence.camera->T_base_sensor.inverse() *
                 sequence.depth_camera->T_base_sensor * T_optical_from_mrpt.inverse())
@@ -400,13 +400,13 @@ TEST_F(RawDepth, ofLibrealsensesRecorderIsWarped) {
     EXPECT_LT((T_color_imu.t - Eigen::Vector3d(0.015 - 0.1, 0, 0)).norm(), 1e-9);
 }
 
-TEST_F(RawDepth, withTheCalibrationOfColourIsRegistered) {
+TEST_F(RawDepth, withTheCalibrationOfColorIsRegistered) {
     addStreams("/camera/rgb/image_raw", "/camera/depth/image_raw", "color", "16UC1");
     lines_.add("camera_info /camera/rgb/camera_info color 1.0 32 24 30 30 16 12 0 0 0 0 0");
     lines_.add("camera_info /camera/depth/camera_info color 1.0 32 24 30 30 16 12 0 0 0 0 0");
     const RgbdSequence sequence = read();
     EXPECT_FALSE(sequence.depth_camera);
-    EXPECT_THAT(sequence.notes, Contains(HasSubstr("registered to colour")));
+    EXPECT_THAT(sequence.notes, Contains(HasSubstr("registered to color")));
 }
 
 TEST_F(Bag, otherSensorsComeWithoutACamera) {
@@ -414,7 +414,7 @@ TEST_F(Bag, otherSensorsComeWithoutACamera) {
     lines_.add("string /status 1.0 fine");
     lines_.recordRos1(bag());
     EXPECT_THAT(complaint(),
-                AllOf(HasSubstr("holds no colour images"), HasSubstr("/imu (sensor_msgs/Imu, 1)"),
+                AllOf(HasSubstr("holds no color images"), HasSubstr("/imu (sensor_msgs/Imu, 1)"),
                       HasSubstr("/status (std_msgs/String, 1)"), HasSubstr("--no-camera"),
                       Not(HasSubstr("\n"))));
     const RgbdSequence sequence = UnpackedBag(bag(), folder_ / "", {"", "", true}).sequence();
@@ -429,7 +429,7 @@ TEST_F(Bag, whatLacksIsSaid) {
     lines_.clear();
     lines_.addImage("/c", "c", 1, "h264", small_sequence::color(0));
     lines_.recordRos1(bag());
-    EXPECT_THAT(complaint(), HasSubstr("holds no colour images"));
+    EXPECT_THAT(complaint(), HasSubstr("holds no color images"));
 }
 
 TEST_F(Bag, anImageThatLacksPixelsIsRefused) {

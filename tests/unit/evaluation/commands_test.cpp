@@ -5,8 +5,8 @@
 
 #include <filesystem>
 
+#include "../../support/made_trajectories.h"
 #include "../../support/tum_folder.h"
-#include "made_trajectories.h"
 #include "rgbd_graphslam/core/error.h"
 
 namespace rgbd_graphslam {

@@ -2,9 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "../../support/made_trajectories.h"
 #include "../../support/random_inputs.h"
 #include "../../support/tum_folder.h"
-#include "made_trajectories.h"
 #include "rgbd_graphslam/core/error.h"
 
 namespace rgbd_graphslam {

@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "../../support/made_trajectories.h"
 #include "../../support/tum_folder.h"
-#include "made_trajectories.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/evaluation/gnuplot.h"
 

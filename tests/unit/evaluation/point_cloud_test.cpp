@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "../../support/made_trajectories.h"
 #include "../../support/tum_folder.h"
-#include "made_trajectories.h"
 #include "rgbd_graphslam/core/error.h"
 
 namespace rgbd_graphslam {
@@ -72,7 +72,7 @@ TEST(PointCloud, refusesAnImageOfAnotherSize) {
     EXPECT_THROW(builder.add(emptyImage(), {}), Error);
 }
 
-TEST(PosedImages, findTheirPosesByTheStampOfTheColour) {
+TEST(PosedImages, findTheirPosesByTheStampOfTheColor) {
     const TestFolder folder;
     folder.write("rgb.txt", "100.0 rgb/0.png\n105.01 rgb/1.png\n500 rgb/2.png\n");
     folder.write("depth.txt", "100.01 d/0.png\n105.0 d/1.png\n500 d/2.png\n");

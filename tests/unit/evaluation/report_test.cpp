@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "made_trajectories.h"
+#include "../../support/made_trajectories.h"
 
 namespace rgbd_graphslam {
 namespace {

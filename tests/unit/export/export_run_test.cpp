@@ -117,7 +117,7 @@ TEST_F(ExportRun, writesABagOfPosesWhereThereAreNoMaps) {
 
 TEST_F(ExportRun, takesTheMapThatARunWasLocalizedIn) {
     folder_.write("map/keyframes.txt", toTumText(poses_));
-    folder_.write("run/summary.json", "{\"map\": {\"folder\": \"../map\", \"use\": \"localise\"}}");
+    folder_.write("run/summary.json", "{\"map\": {\"folder\": \"../map\", \"use\": \"localize\"}}");
     const WarningRecord record;
     EXPECT_EQ(write("ros2")[0].summary, "2 poses");
     ASSERT_EQ(record.warnings().size(), 1u);

@@ -9,7 +9,7 @@ namespace {
 
 RgbdImage plainImage(int width = 640, int height = 480) {
     RgbdImage image;
-    image.grey = cv::Mat(height, width, CV_8UC1, cv::Scalar(100));
+    image.gray = cv::Mat(height, width, CV_8UC1, cv::Scalar(100));
     image.depth = cv::Mat(height, width, CV_16UC1, cv::Scalar(2000));
     image.depth_unit_m = 0.001;
     return image;
@@ -17,12 +17,12 @@ RgbdImage plainImage(int width = 640, int height = 480) {
 
 TEST(DenseView, isTheMeanOfEachBlock) {
     RgbdImage image = plainImage();
-    image.grey(cv::Rect(8, 16, 4, 8)) = 200;  // half of block (1, 2)
+    image.gray(cv::Rect(8, 16, 4, 8)) = 200;  // half of block (1, 2)
     const DenseView view = DenseViewBuilder(Camera{}).build(image);
     ASSERT_EQ(view.camera.width, 80);
     ASSERT_EQ(view.camera.height, 60);
-    EXPECT_FLOAT_EQ(view.grey[0], 100);
-    EXPECT_FLOAT_EQ(view.grey[2 * 80 + 1], 150);
+    EXPECT_FLOAT_EQ(view.gray[0], 100);
+    EXPECT_FLOAT_EQ(view.gray[2 * 80 + 1], 150);
     EXPECT_FLOAT_EQ(view.depth_m[0], 2);
     EXPECT_EQ(view.depthShare(), 1);
 }
@@ -40,7 +40,7 @@ TEST(DenseView, depthIsThatOfTheNearerSurface) {
 TEST(DenseView, cameraSeesTheSameRays) {
     const Camera full;
     const Camera small = shrunk(full, 8);
-    const Eigen::Vector3d ray = full.unproject(323.5, 227.5, 1);  // centre of block (40, 28)
+    const Eigen::Vector3d ray = full.unproject(323.5, 227.5, 1);  // center of block (40, 28)
     EXPECT_LT((small.project(ray) - Eigen::Vector2d(40, 28)).norm(), 1e-9);
 }
 
@@ -50,16 +50,16 @@ TEST(DenseView, lensDistortionIsTakenOut) {
     RgbdImage image = plainImage();
     const Eigen::Vector2d seen = camera.distort({20 * 8 + 3.5, 45 * 8 + 3.5});
     cv::Rect spot(static_cast<int>(seen.x()) - 12, static_cast<int>(seen.y()) - 12, 24, 24);
-    image.grey(spot) = 250;
+    image.gray(spot) = 250;
     EXPECT_GT((seen - Eigen::Vector2d(163.5, 363.5)).norm(), 3);
-    EXPECT_FLOAT_EQ(DenseViewBuilder(camera).build(image).grey[45 * 80 + 20], 250);
+    EXPECT_FLOAT_EQ(DenseViewBuilder(camera).build(image).gray[45 * 80 + 20], 250);
 }
 
 TEST(DenseView, smallImagesAreTakenAsTheyAre) {
     Camera camera;
     camera.width = 32;
     camera.height = 24;
-    EXPECT_EQ(DenseViewBuilder(camera).build(plainImage(32, 24)).grey.size(), 32u * 24u);
+    EXPECT_EQ(DenseViewBuilder(camera).build(plainImage(32, 24)).gray.size(), 32u * 24u);
 }
 
 TEST(DenseView, halvingKeepsTheNearestSurface) {
@@ -69,7 +69,7 @@ TEST(DenseView, halvingKeepsTheNearestSurface) {
     EXPECT_EQ(half.camera.width, 40);
     EXPECT_FLOAT_EQ(half.depth_m[0], 1);
     EXPECT_FLOAT_EQ(half.depth_m[1], 2);
-    EXPECT_FLOAT_EQ(half.grey[0], 100);
+    EXPECT_FLOAT_EQ(half.gray[0], 100);
     EXPECT_NEAR(half.contrast(), 0, 1e-3);
 }
 

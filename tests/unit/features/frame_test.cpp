@@ -64,7 +64,7 @@ TEST(ForegroundDepth, isNoneWithFewReadingsOrOutOfRange) {
 TEST(FrameBuilder, refusesImagesOfAnotherSizeOrType) {
     const FrameBuilder builder({}, Camera{});
     RgbdImage image;
-    image.grey = cv::Mat::zeros(480, 640, CV_8UC1);
+    image.gray = cv::Mat::zeros(480, 640, CV_8UC1);
     image.depth = cv::Mat::zeros(240, 320, CV_16UC1);
     EXPECT_THROW(builder.build(image), Error);
     image.depth = cv::Mat::zeros(480, 640, CV_8UC1);

@@ -61,7 +61,7 @@ TEST(OrbExtractor, placesACornerBelowThePixel) {
         cv::GaussianBlur(image, image, {5, 5}, 1.0);
         const auto features = OrbExtractor(options).extract(image);
         ASSERT_FALSE(features.corners.empty());
-        // The edge lies between pixel centres: (edge / zoom) in pixel areas is 0.5 less in centres.
+        // The edge lies between pixel centers: (edge / zoom) in pixel areas is 0.5 less in centers.
         const double truth = static_cast<double>(edge) / zoom - 0.5;
         double nearest = 10;
         for (const Corner& c : features.corners) {

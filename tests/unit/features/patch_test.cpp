@@ -11,7 +11,7 @@ namespace {
 
 using Texture = std::function<double(double, double)>;
 
-/** Smooth waves in all directions, 6 px and longer, about grey 120. */
+/** Smooth waves in all directions, 6 px and longer, about gray 120. */
 double waves(double x, double y) {
     return 120 + 40 * std::sin(0.9 * x + 0.3 * y) + 30 * std::cos(0.4 * x - 0.8 * y + 1);
 }
@@ -26,8 +26,8 @@ Patch patchAt(const Texture& texture, double x, double y, cv::Point2f corner = {
     const double c = scale * std::cos(roll_rad), s = scale * std::sin(roll_rad);
     for (int j = 0; j < Patch::side; ++j) {
         for (int i = 0; i < Patch::side; ++i) {
-            const double u = i - Patch::centre, v = j - Patch::centre;
-            patch.grey[Patch::side * j + i] = static_cast<std::uint8_t>(
+            const double u = i - Patch::center, v = j - Patch::center;
+            patch.gray[Patch::side * j + i] = static_cast<std::uint8_t>(
                 std::lround(texture(x + c * u + s * v, y - s * u + c * v)));
         }
     }
@@ -53,7 +53,7 @@ TEST(Patch, isFoundTurnedAndScaledAndInAnotherLight) {
         for (const double roll : {-0.4, 0.0, 0.1, 0.3}) {
             const cv::Point2f corner(0.3F, -0.2F);
             const auto seen = [&](double x, double y) { return 0.9 * waves(x, y) + 15; };
-            // The corner of the reference is the centre that the second image turns about.
+            // The corner of the reference is the center that the second image turns about.
             const Patch patch = patchAt(seen, 0.3, -0.2, {0.6F, 0.5F}, scale, roll);
             const auto offset =
                 alignPatch(patchAt(waves, 0, 0, corner),
@@ -65,7 +65,7 @@ TEST(Patch, isFoundTurnedAndScaledAndInAnotherLight) {
     }
 }
 
-TEST(Patch, isNotFoundWhereGreyValuesTellNoPlace) {
+TEST(Patch, isNotFoundWhereGrayValuesTellNoPlace) {
     const auto plain = [](double, double) { return 90.0; };
     const auto edge = [](double x, double) { return x < 0.3 ? 40.0 : 200.0; };
     const auto other = [](double x, double y) { return 255 - waves(x, y); };
@@ -74,7 +74,7 @@ TEST(Patch, isNotFoundWhereGreyValuesTellNoPlace) {
     EXPECT_FALSE(alignPatch(patchAt(waves, 0, 0), {}, patchAt(other, 0, 0)));
 }
 
-/** Alignment moves corners away from the pixel in the centre. */
+/** Alignment moves corners away from the pixel in the center. */
 TEST(Patch, isNotMadeOfPixelsBeyondItsBorder) {
     for (const float x : {-3.2F, 0.0F, 3.2F}) {
         for (const float y : {-3.2F, 3.2F}) {

@@ -111,40 +111,40 @@ TEST(SE3Properties, interpolationGoesFromEndToEndEvenly) {
     }
 }
 
-TEST(SE3Properties, orthonormalisedMovesLittleAndIsARotation) {
+TEST(SE3Properties, orthonormalizedMovesLittleAndIsARotation) {
     RandomInputs random(9);
     for (int i = 0; i < trials; ++i) {
         const Eigen::Matrix3d R = rotationExp(random.rotation());
         Eigen::Matrix3d spoilt = R;
         for (int k = 0; k < 9; ++k) spoilt(k) += random.uniform(-1e-6, 1e-6);
-        EXPECT_LT(distanceFromRotation(orthonormalised(spoilt)), 1e-14);
-        EXPECT_LT((orthonormalised(spoilt) - R).norm(), 1e-5);
+        EXPECT_LT(distanceFromRotation(orthonormalized(spoilt)), 1e-14);
+        EXPECT_LT((orthonormalized(spoilt) - R).norm(), 1e-5);
     }
 }
 
 /** A pose handed on from frame to frame, each time tied to a keyframe and untied again. */
-SE3 handedOn(int links, bool with_orthonormalising) {
+SE3 handedOn(int links, bool with_orthonormalizing) {
     RandomInputs random(10);
     SE3 pose = random.pose();
     for (int i = 0; i < links; ++i) {
         const SE3 T_cam_reference = random.pose() * pose.inverse();
         pose = T_cam_reference.inverse() * random.pose();
-        if (with_orthonormalising) pose.R = orthonormalised(pose.R);
+        if (with_orthonormalizing) pose.R = orthonormalized(pose.R);
     }
     return pose;
 }
 
-TEST(SE3Properties, chainsOfInversesStayRigidWhereTheyAreOrthonormalised) {
+TEST(SE3Properties, chainsOfInversesStayRigidWhereTheyAreOrthonormalized) {
     EXPECT_LT(distanceFromRotation(handedOn(100000, true).R), 1e-14);
 }
 
 TEST(SE3Properties, anInverseThatIsATransposeCarriesErrorsOn) {
-    // Why chains must be orthonormalised: what R lacks of a rotation comes back doubled.
+    // Why chains must be orthonormalized: what R lacks of a rotation comes back doubled.
     Eigen::Matrix3d R = 1.000001 * rotationExp({0.3, 0.2, 0.1});
     const double before = distanceFromRotation(R);
     for (int i = 0; i < 10; ++i) R = R * R.transpose() * R;
     EXPECT_GT(distanceFromRotation(R), 1000 * before);
-    EXPECT_LT(distanceFromRotation(orthonormalised(R)), 1e-14);
+    EXPECT_LT(distanceFromRotation(orthonormalized(R)), 1e-14);
 }
 
 }  // namespace

@@ -17,7 +17,8 @@ TEST(SE3, logInvertsExp) {
 }
 
 TEST(SE3, retractInvertsMinus) {
-    const SE3 a(rotationExp({0.3, -0.2, 0.9}), {1, 2, 3}), b(rotationExp({-0.5, 0.1, 0.2}), {0, 1, 5});
+    const SE3 a(rotationExp({0.3, -0.2, 0.9}), {1, 2, 3}),
+        b(rotationExp({-0.5, 0.1, 0.2}), {0, 1, 5});
     const SE3 c = a.retract(b.minus(a));
     // minus() keeps the translation of the product, retract() adds it: equal by construction.
     EXPECT_LT((c.R - b.R).norm(), 1e-12);
@@ -32,7 +33,8 @@ TEST(SE3, perturbationJacobianOfAPointIsIdentityAndMinusSkew) {
     for (int i = 0; i < 6; ++i) {
         const double h = 1e-6;
         numeric.col(i) =
-            (T.retract(h * Vector6d::Unit(i)) * p - T.retract(-h * Vector6d::Unit(i)) * p) / (2 * h);
+            (T.retract(h * Vector6d::Unit(i)) * p - T.retract(-h * Vector6d::Unit(i)) * p) /
+            (2 * h);
     }
     EXPECT_LT((analytic - numeric).norm(), 1e-8);
 }

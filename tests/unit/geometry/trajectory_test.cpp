@@ -14,7 +14,7 @@ Trajectory walk() {
     return poses;
 }
 
-TEST(PoseAt, isBetweenItsNeighbours) {
+TEST(PoseAt, isBetweenItsNeighbors) {
     const auto pose = poseAt(walk(), 0.25);
     ASSERT_TRUE(pose);
     EXPECT_NEAR(pose->t.x(), 0.25, 1e-12);

@@ -56,7 +56,7 @@ TEST(KeyframeGraph, losesTheEdgesOfLoopsThatTheSlamDropped) {
         edge.kind = kind;
         graph.insertEdge(from, to, registered(edge, *graph.shared));
     };
-    for (int i = 0; i < 5; ++i) insert(i, i + 1, EdgeKind::Odometry);
+    for (int i = 0; i < 5; ++i) insert(i, i + 1, EdgeKind::Sequential);
     insert(0, 4, EdgeKind::Loop);
     dropForgottenLoops(graph);
     EXPECT_EQ(graph.edges.size(), 5u);

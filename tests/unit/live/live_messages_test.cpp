@@ -90,9 +90,9 @@ TEST(LiveMessages, keyframesForTheMapHaveFewerPixelsThanPictures) {
     EXPECT_EQ(frame.depth.at<std::uint16_t>(10, 20), 1000 + 10 * 70 + 140);
 }
 
-TEST(LiveMessages, aGreyCameraHasGreyImages) {
+TEST(LiveMessages, aGrayCameraHasGrayImages) {
     RgbdImage image = smoothImage(640, 480);
-    image.grey = cv::Mat(480, 640, CV_8UC1, cv::Scalar(77));
+    image.gray = cv::Mat(480, 640, CV_8UC1, cv::Scalar(77));
     image.color.release();
     LiveFrame sent;
     putImages(image, sent);

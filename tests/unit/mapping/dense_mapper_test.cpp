@@ -122,7 +122,7 @@ DenseMapper unfinishedMap(const BoxRoom& room) {
     return mapper;
 }
 
-/** Occupied voxels along a line, at the centres of those it starts in. */
+/** Occupied voxels along a line, at the centers of those it starts in. */
 int occupiedAlong(const OccupancyVolume& volume, Eigen::Vector3d place, int axis, int voxels) {
     int occupied = 0;
     for (int i = 0; i < voxels; ++i, place[axis] += volume.resolution()) {

@@ -1,6 +1,6 @@
 #include "rgbd_graphslam/mapping/map_builder.h"
 #include "rgbd_graphslam/core/formatted.h"
-#include "rgbd_graphslam/mapping/level_survey.h"
+#include "rgbd_graphslam/mapping/gravity_aligner.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
-#include "rgbd_graphslam/evaluation/ply.h"
+#include "rgbd_graphslam/geometry/ply.h"
 #include "rgbd_graphslam/mapping/keyframe_reader.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 #include "rgbd_graphslam/mapping/map_scene.h"
@@ -112,28 +112,28 @@ double tiltDegrees(const SE3& T_up_world) {
 
 TEST_F(MapBuilder, uprightByTheFloorWithoutAccelerometer) {
     writeWalk(false);
-    const SE3 T_up_world = uprightFromWorld(inputs_, MapOptions());
+    const SE3 T_up_world = T_gravity_world(inputs_, MapOptions());
     EXPECT_LT(tiltDegrees(T_up_world), 0.2);
     EXPECT_NEAR((T_up_world * (T_world_room * Eigen::Vector3d::Zero())).z(), 0, 0.01);
 }
 
 TEST_F(MapBuilder, levelSurfacesMendAnAccelerometerThatIsALittleOff) {
     writeWalk(true, 4 * M_PI / 180);
-    EXPECT_LT(tiltDegrees(uprightFromWorld(inputs_, MapOptions())), 0.2);
+    EXPECT_LT(tiltDegrees(T_gravity_world(inputs_, MapOptions())), 0.2);
 }
 
 TEST_F(MapBuilder, accelerometerIsBelievedWhereTheFloorIsARamp) {
     writeWalk(true, 20 * M_PI / 180);
-    EXPECT_NEAR(tiltDegrees(uprightFromWorld(inputs_, MapOptions())), 20, 0.1);
+    EXPECT_NEAR(tiltDegrees(T_gravity_world(inputs_, MapOptions())), 20, 0.1);
     MapOptions by_floor;
     by_floor.upright = "floor";
-    EXPECT_LT(tiltDegrees(uprightFromWorld(inputs_, by_floor)), 0.2);
+    EXPECT_LT(tiltDegrees(T_gravity_world(inputs_, by_floor)), 0.2);
 }
 
 TEST_F(MapBuilder, accelerometerThatHasTheFloorOverheadIsLeftOut) {
     writeWalk(true, M_PI);
     const WarningRecord record;
-    EXPECT_LT(tiltDegrees(uprightFromWorld(inputs_, MapOptions())), 0.2);
+    EXPECT_LT(tiltDegrees(T_gravity_world(inputs_, MapOptions())), 0.2);
     ASSERT_EQ(record.warnings().size(), 1u);
     EXPECT_NE(record.warnings()[0].find("--imu-accel-unit=-1"), std::string::npos);
 }
@@ -142,7 +142,7 @@ TEST_F(MapBuilder, accelerometerByWhichTheCameraLiesOnItsSideIsDoubted) {
     for (const double tilt : {M_PI / 2, -M_PI / 2}) {
         writeWalk(true, tilt);
         const WarningRecord record;
-        uprightFromWorld(inputs_, MapOptions());
+        T_gravity_world(inputs_, MapOptions());
         ASSERT_EQ(record.warnings().size(), 1u);
         EXPECT_NE(record.warnings()[0].find("lies on its side"), std::string::npos);
     }
@@ -153,7 +153,7 @@ TEST_F(MapBuilder, withoutEitherTheFirstCameraIsLevel) {
     MapOptions options;
     options.upright = "none";
     const SE3 T_up_first =
-        uprightFromWorld(inputs_, options) * inputs_.keyframes.front().T_world_cam;
+        T_gravity_world(inputs_, options) * inputs_.keyframes.front().T_world_cam;
     EXPECT_LT((T_up_first.R.col(1) + Eigen::Vector3d::UnitZ()).norm(), 1e-9);
 }
 
@@ -193,7 +193,7 @@ TEST_F(MapBuilder, depthIsPlacedWhereTheCameraWasWhenItWasTaken) {
 
 TEST_F(MapBuilder, everyFileIsWrittenAndReadsBack) {
     writeWalk(false);
-    const MapInputs upright = transformed(uprightFromWorld(inputs_, MapOptions()), inputs_);
+    const MapInputs upright = transformed(T_gravity_world(inputs_, MapOptions()), inputs_);
     const std::string out = path("out");
     const MapSummary summary = writeMaps(upright, MapOptions(), out);
     EXPECT_EQ(summary.keyframes, 8u);
@@ -252,7 +252,7 @@ TEST_F(MapBuilder, meshIsWrittenWhenAskedForAndGoesWithTheMapsItIsOf) {
 /** What robot-map-gui and pf-localization do with the simple map. */
 TEST_F(MapBuilder, simpleMapMakesTheSameWallsIn2dAnd3d) {
     writeWalk(false);
-    const MapInputs upright = transformed(uprightFromWorld(inputs_, MapOptions()), inputs_);
+    const MapInputs upright = transformed(T_gravity_world(inputs_, MapOptions()), inputs_);
     writeMaps(upright, MapOptions(), path("out"));
     mrpt::maps::CSimpleMap simple;
     ASSERT_TRUE(simple.loadFromFile(path("out/map.simplemap")));
@@ -412,8 +412,8 @@ TEST(MapInputsOfParts, keyframesApartAreLeftOutAndTheRestCountedAnew) {
     inputs.keyframes_before_loops = inputs.keyframes;
     inputs.loops = {{0, 6, 50}, {1, 3, 60}, {2, 5, 70}};
     inputs.earlier = {{"a", 2}, {"b", 3}};
-    inputs.apart = {1, 4};
-    const MapInputs left = withoutApart(inputs);
+    inputs.disconnected = {1, 4};
+    const MapInputs left = withoutDisconnected(inputs);
     ASSERT_EQ(left.keyframes.size(), 5u);
     EXPECT_EQ(left.keyframes[1].stamp_s, 2);
     EXPECT_EQ(left.keyframes_before_loops[3].stamp_s, 5);

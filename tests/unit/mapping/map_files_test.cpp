@@ -17,7 +17,7 @@
 #include "../../support/problem_of.h"
 #include "box_room.h"
 #include "rgbd_graphslam/core/error.h"
-#include "rgbd_graphslam/evaluation/ply.h"
+#include "rgbd_graphslam/geometry/ply.h"
 #include "rgbd_graphslam/mapping/dense_mapper.h"
 
 namespace rgbd_graphslam {

@@ -42,7 +42,7 @@ RgbdImage seen(const Cast& cast, const SE3& T_world_cam) {
 
 PlyModel meshOf(const Cast& cast, const std::vector<SE3>& views) {
     const RayTable rays(smallCamera());
-    DistanceVolume volume(voxel_m);
+    TsdfVolume volume(voxel_m);
     for (const SE3& T : views) volume.insert(T, DepthView(seen(cast, T), rays, MapOptions()));
     PlyModel mesh = surfaceOf(volume.blocks(), voxel_m);
     addNormals(mesh);
@@ -200,10 +200,10 @@ TEST(Mesh, farFromTheOriginIsAsExact) {
 /** Random signs everywhere: each way that surface can pass a cell, and each that two cells meet. */
 TEST(Mesh, isClosedWhateverTheFieldIsLike) {
     RandomInputs random(7);
-    DistanceVolume::BlockTable blocks;
-    constexpr int size = DistanceVolume::block_size;
+    TsdfVolume::BlockTable blocks;
+    constexpr int size = TsdfVolume::block_size;
     for (int b = 0; b < 8; ++b) {
-        auto block = std::make_unique<DistanceVolume::Block>();
+        auto block = std::make_unique<TsdfVolume::Block>();
         for (int i = 0; i < size * size * size; ++i) {
             const VoxelIndex v{size * (b & 1) + i % size, size * (b >> 1 & 1) + i / size % size,
                                size * (b >> 2) + i / (size * size)};
@@ -413,7 +413,7 @@ TEST(MeshOfRoom, isNotThereUnlessAskedFor) {
 }
 
 TEST(MeshOfRoom, poseOutOfReachIsRefused) {
-    DistanceVolume volume(voxel_m);
+    TsdfVolume volume(voxel_m);
     const RayTable rays(smallCamera());
     const SE3 far(Eigen::Matrix3d::Identity(), {30000, 0, 0});
     EXPECT_THAT(problemOf([&] {

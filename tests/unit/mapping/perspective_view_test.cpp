@@ -7,7 +7,7 @@
 namespace rgbd_graphslam {
 namespace {
 
-/** Points of one colour, 1 cm apart. \param z of the sheet, m */
+/** Points of one color, 1 cm apart. \param z of the sheet, m */
 PointMap sheet(float z, std::array<std::uint8_t, 3> rgb) {
     PointMap points;
     for (int i = 0; i < 200; ++i)

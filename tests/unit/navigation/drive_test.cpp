@@ -10,7 +10,7 @@
 #include "../mapping/box_room.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
-#include "rgbd_graphslam/evaluation/ply.h"
+#include "rgbd_graphslam/geometry/ply.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 #include "rgbd_graphslam/mapping/dense_mapper.h"
 #include "rgbd_graphslam/mapping/map_files.h"

@@ -5,8 +5,8 @@
 namespace rgbd_graphslam {
 namespace {
 
-cv::Mat plain(int grey) {
-    return cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(grey));
+cv::Mat plain(int gray) {
+    return cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(gray));
 }
 
 TEST(KeyframeSheet, isEmptyWithoutPictures) {

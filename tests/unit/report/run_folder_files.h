@@ -44,7 +44,7 @@ inline std::string summaryText(const MadeRun& run) {
            figures + ", \"wall_ms\": " + figures + "}}}";
 }
 
-/** Writes the files; map.png is of one colour, magenta. */
+/** Writes the files; map.png is of one color, magenta. */
 inline void makeRunFolder(const TestFolder& folder, const MadeRun& run) {
     std::string trajectory, truth, keyframes, frames = "stamp_s,origin,inliers,keyframe\n";
     for (int i = 0; i < run.frames; ++i) {

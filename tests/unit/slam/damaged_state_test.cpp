@@ -3,10 +3,10 @@
 
 #include <functional>
 
-#include "rgbd_graphslam/slam/full_adjuster.h"
+#include "rgbd_graphslam/slam/dense_odometry.h"
+#include "rgbd_graphslam/slam/global_bundle_adjuster.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
 #include "rgbd_graphslam/slam/place_index.h"
-#include "rgbd_graphslam/slam/weak_tracker.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -34,7 +34,7 @@ SlamMap smallMap() {
 constexpr std::size_t no_dead = sizeof(std::uint32_t), one_culled = 2 * sizeof(std::uint32_t),
                       no_held = sizeof(std::uint32_t);
 
-/** The small map, and instead of dead landmarks, culled and held keyframes what `write` gives. */
+/** The small map, and instead of dead landmarks, culled and fixed keyframes what `write` gives. */
 void loadMap(const Write& write) {
     std::string bytes = bytesOf([](ByteWriter& out) { smallMap().save(out); });
     bytes.resize(bytes.size() - no_dead - one_culled - no_held);
@@ -135,7 +135,7 @@ TEST(DamagedState, smallImagesAreOfTheCamera) {
         for (int pose = 0; pose < 2; ++pose) encodePose(SE3(), out);
         for (int stamp = 0; stamp < 2; ++stamp) out.put(1.0);
     });
-    WeakTracker tracker;
+    DenseOdometry tracker;
     ByteReader good(bytes), bad(bytes);
     EXPECT_NO_THROW(tracker.load(good, Camera{2, 1, 1, 1, 0, 0, {}}));
     EXPECT_EQ(good.left(), 0u);
@@ -157,10 +157,10 @@ TEST(DamagedState, adjustmentsEndAndAreOfSomething) {
             out.putCount(free);
             encodePose(SE3(), out);
         });
-        FullAdjuster adjuster(options, camera, map);
+        GlobalBundleAdjuster adjuster(options, camera, map);
         ByteReader in(bytes);
         adjuster.load(in);
-        adjuster.handOver();
+        adjuster.applyPendingAdjustment();
     };
     EXPECT_NO_THROW(load(5, 1));
     EXPECT_THROW(load(0x7fffffff, 1), DamagedBytes);

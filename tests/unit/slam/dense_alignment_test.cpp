@@ -31,7 +31,7 @@ TEST(DenseAlignment, lightMayChange) {
     const DenseRoom room;
     const SE3 T_room_view = lookingIntoTheCorner(0.03, {0.03, 0, 0.02});
     DenseView view = room.view(T_room_view);
-    for (float& grey : view.grey) grey = 10 + 0.4f * grey;
+    for (float& gray : view.gray) gray = 10 + 0.4f * gray;
     EXPECT_LT(errorOf(alignDensely(room.view(T_room_reference), view, SE3()), T_room_view), 0.01);
 }
 
@@ -39,7 +39,7 @@ TEST(DenseAlignment, surfacesAloneDoInACorner) {
     const DenseRoom room;
     const SE3 T_room_view = lookingIntoTheCorner(0.03, {0.03, 0, 0.02});
     DenseView view = room.view(T_room_view);
-    view.grey.assign(view.grey.size(), 0);
+    view.gray.assign(view.gray.size(), 0);
     EXPECT_LT(errorOf(alignDensely(room.view(T_room_reference), view, SE3()), T_room_view), 0.02);
 }
 
@@ -47,7 +47,7 @@ TEST(DenseAlignment, aBareWallSaysTooLittle) {
     const DenseRoom room;
     const SE3 T_room_wall(Eigen::Matrix3d::Identity(), Eigen::Vector3d(0, 0, 0.8));
     DenseView wall = room.view(T_room_wall);
-    wall.grey.assign(wall.grey.size(), 90);
+    wall.gray.assign(wall.gray.size(), 90);
     EXPECT_FALSE(alignDensely(wall, wall, SE3()));
 }
 
@@ -58,7 +58,7 @@ TEST(DenseAlignment, noiseOfSomethingFlatHoldsNothing) {
         DenseView view;
         view.camera = shrunk(Camera{}, 8);
         for (int i = 0; i < view.camera.width * view.camera.height; ++i) {
-            view.grey.push_back(110);
+            view.gray.push_back(110);
             view.depth_m.push_back(1 + 0.004f * (random() % 1001 / 500.f - 1));
         }
         return view;

@@ -18,7 +18,7 @@ class DenseRoom {
                 const Eigen::Vector3d ray = T_room_cam.R * view.camera.unproject(u, v, 1);
                 const double z = depthAlong(T_room_cam.t, ray);
                 view.depth_m.push_back(static_cast<float>(z));
-                view.grey.push_back(greyAt(T_room_cam.t + z * ray));
+                view.gray.push_back(grayAt(T_room_cam.t + z * ray));
             }
         }
         return view;
@@ -35,7 +35,7 @@ class DenseRoom {
         return nearest;
     }
 
-    static float greyAt(const Eigen::Vector3d& p) {
+    static float grayAt(const Eigen::Vector3d& p) {
         const double waves = std::sin(4.1 * p.x() + 1.3 * p.y()) +
                              std::sin(5.3 * p.y() - 2.1 * p.z()) +
                              std::sin(3.7 * p.z() + 2.9 * p.x() + 1);

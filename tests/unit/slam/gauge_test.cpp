@@ -32,7 +32,7 @@ PoseGraph someGraph(unsigned seed) {
     };
     graph.nodes.push_back(truth[0]);
     for (int i = 1; i < nodes; ++i) {
-        connect(i - 1, i, EdgeKind::Odometry, 0.02);
+        connect(i - 1, i, EdgeKind::Sequential, 0.02);
         graph.nodes.push_back(graph.nodes.back() * graph.edges.back().T_from_to);
     }
     for (int i = 0; i + per_round < nodes; i += 5) connect(i, i + per_round, EdgeKind::Loop, 0.02);
@@ -41,7 +41,7 @@ PoseGraph someGraph(unsigned seed) {
 }
 
 /** So that two ways to the minimum end at the same numbers. */
-PoseGraph optimised(PoseGraph graph, int fixed = 0) {
+PoseGraph optimized(PoseGraph graph, int fixed = 0) {
     for (int round = 0; round < 20; ++round) optimizePoseGraph(graph, {}, fixed);
     return graph;
 }
@@ -55,18 +55,18 @@ double largestDifference(const std::vector<SE3>& a, const std::vector<SE3>& b) {
 }
 
 /** The solvers stop when the cost falls by less than a hundred-thousandth; m, rad. Noise moves
- * nodes by centimetres. */
+ * nodes by centimeters. */
 constexpr double same = 5e-4;
 
 TEST(Gauge, aPoseGraphInAnotherFrameGivesTheSameGraphThere) {
     RandomInputs random(1);
     for (unsigned seed = 0; seed < 5; ++seed) {
-        const PoseGraph start = someGraph(seed), expected = optimised(start);
+        const PoseGraph start = someGraph(seed), expected = optimized(start);
         ASSERT_GT(largestDifference(start.nodes, expected.nodes), 100 * same);
         const SE3 motion = random.pose();
         PoseGraph moved = start;
         for (SE3& node : moved.nodes) node = motion * node;
-        moved = optimised(moved);
+        moved = optimized(moved);
         for (SE3& node : moved.nodes) node = motion.inverse() * node;
         EXPECT_LT(largestDifference(moved.nodes, expected.nodes), same) << seed;
     }
@@ -74,7 +74,7 @@ TEST(Gauge, aPoseGraphInAnotherFrameGivesTheSameGraphThere) {
 
 TEST(Gauge, aPoseGraphInAnotherOrderGivesTheSameGraph) {
     for (unsigned seed = 0; seed < 5; ++seed) {
-        const PoseGraph start = someGraph(seed), expected = optimised(start);
+        const PoseGraph start = someGraph(seed), expected = optimized(start);
         RandomInputs random(100 + seed);
         std::vector<int> place(start.nodes.size());
         std::iota(place.begin(), place.end(), 0);
@@ -86,7 +86,7 @@ TEST(Gauge, aPoseGraphInAnotherOrderGivesTheSameGraph) {
         for (PoseEdge& edge : shuffled.edges)
             edge.from = place[edge.from], edge.to = place[edge.to];
         std::reverse(shuffled.edges.begin(), shuffled.edges.end());
-        shuffled = optimised(shuffled, place[0]);
+        shuffled = optimized(shuffled, place[0]);
         std::vector<SE3> back;
         for (const int p : place) back.push_back(shuffled.nodes[p]);
         EXPECT_LT(largestDifference(back, expected.nodes), same) << seed;

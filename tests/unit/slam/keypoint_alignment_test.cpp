@@ -18,8 +18,8 @@ Patch patchAt(double u, double v) {
     Patch patch;
     for (int j = 0; j < Patch::side; ++j) {
         for (int i = 0; i < Patch::side; ++i) {
-            patch.grey[Patch::side * j + i] = static_cast<std::uint8_t>(
-                std::lround(waves(u + i - Patch::centre, v + j - Patch::centre)));
+            patch.gray[Patch::side * j + i] = static_cast<std::uint8_t>(
+                std::lround(waves(u + i - Patch::center, v + j - Patch::center)));
         }
     }
     return patch;
@@ -95,9 +95,9 @@ TEST(KeypointAlignment, heedsTheRollOfTheCamera) {
         frame.keypoints[0].u += 0.6F;
         for (int j = 0; j < Patch::side; ++j) {
             for (int i = 0; i < Patch::side; ++i) {
-                const Eigen::Vector3d seen(i - Patch::centre + 0.6, j - Patch::centre, camera.fx);
+                const Eigen::Vector3d seen(i - Patch::center + 0.6, j - Patch::center, camera.fx);
                 const Eigen::Vector3d p = T_cam_world.R.transpose() * seen;
-                frame.patches[0].grey[Patch::side * j + i] =
+                frame.patches[0].gray[Patch::side * j + i] =
                     static_cast<std::uint8_t>(std::lround(waves(p.x(), p.y())));
             }
         }

@@ -20,7 +20,7 @@ MapSnapshot mapOfACircle(int frames = 40) {
     LandmarkPatch seen;  // such as the landmarks of images have
     seen.octave = 3;
     seen.patch.corner = {0.25F, -0.5F};
-    for (int i = 0; i < 256; ++i) seen.patch.grey[i] = static_cast<std::uint8_t>(i);
+    for (int i = 0; i < 256; ++i) seen.patch.gray[i] = static_cast<std::uint8_t>(i);
     snapshot.landmarks[7].patch = std::make_shared<LandmarkPatch>(seen);
     snapshot.keyframes[0].frame.keypoints[4].aligned = true;
     return snapshot;
@@ -54,7 +54,7 @@ TEST(MapSnapshot, comesBackAsItWas) {
     ASSERT_TRUE(back.landmarks[7].patch);
     EXPECT_EQ(back.landmarks[7].patch->octave, 3);
     EXPECT_EQ(back.landmarks[7].patch->patch.corner, cv::Point2f(0.25F, -0.5F));
-    EXPECT_EQ(back.landmarks[7].patch->patch.grey, kept.landmarks[7].patch->patch.grey);
+    EXPECT_EQ(back.landmarks[7].patch->patch.gray, kept.landmarks[7].patch->patch.gray);
     EXPECT_FALSE(back.landmarks[8].patch);
     EXPECT_TRUE(back.keyframes[0].frame.keypoints[4].aligned);
 }

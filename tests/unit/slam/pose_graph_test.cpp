@@ -52,7 +52,7 @@ struct World {
         }
         graph.nodes.push_back(truth[0]);
         for (int i = 1; i < nodes; ++i) {
-            addEdge(i - 1, i, EdgeKind::Odometry);
+            addEdge(i - 1, i, EdgeKind::Sequential);
             graph.nodes.push_back(graph.nodes.back() * graph.edges.back().T_from_to);
         }
     }
@@ -172,7 +172,7 @@ TEST(PoseGraph, heldNodesStayAndTheRestFollows) {
         world.graph.nodes[i] = world.truth[i];
         world.addEdge(i, i + 30, EdgeKind::Loop);
     }
-    world.graph.held = 30;
+    world.graph.fixed = 30;
     optimizePoseGraph(world.graph, PoseGraphOptions());
     for (int i = 0; i < 60; ++i) {
         const double error = (world.graph.nodes[i].t - world.truth[i].t).norm();

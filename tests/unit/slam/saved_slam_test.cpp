@@ -41,7 +41,7 @@ bool sameFrames(const VisualSlam& a, const VisualSlam& b) {
                           return l.stamp_s == r.stamp_s && l.origin == r.origin &&
                                  l.T_world_cam.R == r.T_world_cam.R &&
                                  l.T_world_cam.t == r.T_world_cam.t && l.inliers == r.inliers &&
-                                 l.keyframe == r.keyframe && l.part == r.part;
+                                 l.keyframe == r.keyframe && l.submap == r.submap;
                       });
 }
 

@@ -162,12 +162,12 @@ TEST(SlamMap, whatHungOnACulledKeyframeHangsOnItsParent) {
 TEST(SlamMap, holdsTheKeyframesThatThereAre) {
     SlamMap map(1.2, 8);
     for (int k = 0; k < 2; ++k) map.addKeyframe(frameOf(1), SE3());
-    EXPECT_TRUE(map.held(0));
-    EXPECT_FALSE(map.held(1));
-    map.hold();
+    EXPECT_TRUE(map.isFixed(0));
+    EXPECT_FALSE(map.isFixed(1));
+    map.freeze();
     map.addKeyframe(frameOf(1), SE3());
-    EXPECT_TRUE(map.held(1));
-    EXPECT_FALSE(map.held(2));
+    EXPECT_TRUE(map.isFixed(1));
+    EXPECT_FALSE(map.isFixed(2));
 }
 
 TEST(SlamMap, covisibilityCountsSharedLandmarksBestFirst) {
@@ -178,11 +178,11 @@ TEST(SlamMap, covisibilityCountsSharedLandmarksBestFirst) {
         map.addObservation(landmark, 1, i);
         if (i < 20) map.addObservation(landmark, 2, i);
     }
-    const auto neighbours = map.covisible(0);
-    ASSERT_EQ(neighbours.size(), 2u);
-    EXPECT_EQ(neighbours[0].keyframe, 1);
-    EXPECT_EQ(neighbours[0].shared, 30);
-    EXPECT_EQ(neighbours[1].shared, 20);
+    const auto neighbors = map.covisible(0);
+    ASSERT_EQ(neighbors.size(), 2u);
+    EXPECT_EQ(neighbors[0].keyframe, 1);
+    EXPECT_EQ(neighbors[0].shared, 30);
+    EXPECT_EQ(neighbors[1].shared, 20);
     EXPECT_EQ(map.covisible(0, 25).size(), 1u);
 }
 

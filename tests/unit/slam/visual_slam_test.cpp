@@ -190,7 +190,7 @@ TEST(VisualSlam, aKeyframeAfterKnownViewsIsTiedToWhatItSees) {
     const PoseGraph graph = slam.poseGraph();
     int leaps = 0;
     for (const PoseEdge& edge : graph.edges) {
-        if (edge.kind != EdgeKind::Odometry || edge.T_from_to.angle() < 1) continue;
+        if (edge.kind != EdgeKind::Sequential || edge.T_from_to.angle() < 1) continue;
         ++leaps;
         EXPECT_LT(edge.information(0, 0), 1);
         EXPECT_TRUE(std::any_of(graph.edges.begin(), graph.edges.end(), [&](const PoseEdge& e) {
@@ -233,14 +233,14 @@ std::vector<std::optional<SE3>> kidnapped(double until_turns) {
 
 TEST(VisualSlam, beginsANewPartWhereNothingIsKnown) {
     const SlamRun run = runOn(kidnapped(0.7));
-    const int patience = SlamOptions().recovery.new_part_after;
+    const int patience = SlamOptions().recovery.new_submap_after;
     for (int i = 50; i < 60 + patience - 1; ++i) {
         EXPECT_EQ(run.frames[i].origin, FrameOrigin::Lost) << i;
     }
-    EXPECT_EQ(run.frames[0].part, 0);
+    EXPECT_EQ(run.frames[0].submap, 0);
     for (std::size_t i = 60 + patience - 1; i < run.frames.size(); ++i) {
         EXPECT_EQ(run.frames[i].origin, FrameOrigin::Tracked) << i;
-        EXPECT_NE(run.frames[i].part, 0) << i;
+        EXPECT_NE(run.frames[i].submap, 0) << i;
     }
 }
 
@@ -249,7 +249,7 @@ TEST(VisualSlam, joinsPartsByALoop) {
     EXPECT_GE(run.loops, 1);
     for (std::size_t i = 0; i < run.frames.size(); ++i) {
         if (run.frames[i].origin == FrameOrigin::Lost) continue;
-        EXPECT_EQ(run.frames[i].part, 0) << i;
+        EXPECT_EQ(run.frames[i].submap, 0) << i;
     }
     EXPECT_LT(run.largestError(), 0.02);
     EXPECT_LT(lost(run), 40);
@@ -271,9 +271,10 @@ TEST(VisualSlam, odometryTiesFramesWhileTheCameraIsCovered) {
         // In what was not seen before, the map goes on after some frames.
         const bool begun_anew = i < 30 || i > 80;
         if (covered || begun_anew) {
-            EXPECT_EQ(tracked.origin, covered ? FrameOrigin::Weak : FrameOrigin::Tracked) << i;
+            EXPECT_EQ(tracked.origin, covered ? FrameOrigin::DeadReckoned : FrameOrigin::Tracked)
+                << i;
         }
-        EXPECT_EQ(tracked.part, 0);
+        EXPECT_EQ(tracked.submap, 0);
         EXPECT_LT((tracked.T_world_cam.t - (onCircle(0).inverse() * truth).t).norm(), 0.02) << i;
     }
 }
@@ -334,7 +335,7 @@ struct MappedWorld {
 };
 
 /** The circle on from the middle of the map to beyond its end. */
-std::vector<TrackedFrame> localisedOnTheCircle(MappedWorld& mapped, int frames, VisualSlam& slam) {
+std::vector<TrackedFrame> localizedOnTheCircle(MappedWorld& mapped, int frames, VisualSlam& slam) {
     for (int i = 0; i < frames; ++i) {
         const auto frame =
             slam.track(mapped.world.view(onCircle(0.8 + 0.02 * i), i + 1, mapped.camera));
@@ -347,10 +348,10 @@ std::vector<TrackedFrame> localisedOnTheCircle(MappedWorld& mapped, int frames, 
     return slam.frames();
 }
 
-TEST(VisualSlam, localisesInAMapThatStaysWhereItIs) {
+TEST(VisualSlam, localizesInAMapThatStaysWhereItIs) {
     MappedWorld mapped;
-    VisualSlam slam(SlamOptions{}, mapped.camera, mapped.map, MapUse::Localise);
-    const auto frames = localisedOnTheCircle(mapped, 60, slam);
+    VisualSlam slam(SlamOptions{}, mapped.camera, mapped.map, MapUse::Localize);
+    const auto frames = localizedOnTheCircle(mapped, 60, slam);
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const SE3 truth = onCircle(0).inverse() * onCircle(0.8 + 0.02 * static_cast<double>(i));
         EXPECT_EQ(frames[i].origin, i == 0 ? FrameOrigin::Recovered : FrameOrigin::Tracked) << i;
@@ -376,17 +377,17 @@ std::vector<std::pair<int, int>> covisibleEnds(const PoseGraph& graph) {
 TEST(VisualSlam, tellsWhatItsGraphConnectsWithoutMakingIt) {
     MappedWorld mapped;
     VisualSlam slam(SlamOptions{}, mapped.camera, mapped.map, MapUse::Extend);
-    localisedOnTheCircle(mapped, 60, slam);
+    localizedOnTheCircle(mapped, 60, slam);
     EXPECT_GT(slam.covisibility().size(), 3u);
     EXPECT_EQ(slam.covisibility(), covisibleEnds(slam.poseGraph()));
 }
 
-TEST(VisualSlam, keepsFewOfItsOwnKeyframesWhereItLocalises) {
+TEST(VisualSlam, keepsFewOfItsOwnKeyframesWhereItLocalizes) {
     MappedWorld mapped;
     SlamOptions options;
-    options.mapper.localising_keyframes = 3;
-    VisualSlam slam(options, mapped.camera, mapped.map, MapUse::Localise);
-    const auto frames = localisedOnTheCircle(mapped, 60, slam);
+    options.mapper.localization_keyframes = 3;
+    VisualSlam slam(options, mapped.camera, mapped.map, MapUse::Localize);
+    const auto frames = localizedOnTheCircle(mapped, 60, slam);
     std::size_t own = 0, living = 0;
     for (const KeyframeView& keyframe : slam.keyframes()) {
         if (keyframe.id < static_cast<int>(mapped.map.keyframes.size())) continue;
@@ -401,13 +402,13 @@ TEST(VisualSlam, keepsFewOfItsOwnKeyframesWhereItLocalises) {
     }
 }
 
-TEST(VisualSlam, localisesWithAnotherCamera) {
+TEST(VisualSlam, localizesWithAnotherCamera) {
     MappedWorld mapped;
     mapped.camera.fx *= 1.1;
     mapped.camera.fy *= 1.1;
     mapped.camera.cx += 5;
-    VisualSlam slam(SlamOptions{}, mapped.camera, mapped.map, MapUse::Localise);
-    const auto frames = localisedOnTheCircle(mapped, 40, slam);
+    VisualSlam slam(SlamOptions{}, mapped.camera, mapped.map, MapUse::Localize);
+    const auto frames = localizedOnTheCircle(mapped, 40, slam);
     for (std::size_t i = 0; i < frames.size(); ++i) {
         const SE3 truth = onCircle(0).inverse() * onCircle(0.8 + 0.02 * static_cast<double>(i));
         EXPECT_NE(frames[i].origin, FrameOrigin::Lost) << i;
@@ -437,12 +438,12 @@ TEST(VisualSlam, extendsAMapBeyondWhatItShowed) {
 TEST(VisualSlam, elsewhereItIsLostAndBeginsAPartOfItsOwn) {
     MappedWorld mapped;
     const SlamOptions options;
-    VisualSlam slam(options, mapped.camera, mapped.map, MapUse::Localise);
+    VisualSlam slam(options, mapped.camera, mapped.map, MapUse::Localize);
     for (int i = 1; i <= 10; ++i) {
         const auto frame = slam.track(mapped.world.view(onCircle(4 + 0.02 * i), i, mapped.camera));
-        const bool lost = i < options.recovery.weak_keyframe_after;
+        const bool lost = i < options.recovery.dead_reckoned_keyframe_after;
         EXPECT_EQ(frame.origin, lost ? FrameOrigin::Lost : FrameOrigin::Tracked) << i;
-        EXPECT_EQ(frame.part == 0, lost) << i;
+        EXPECT_EQ(frame.submap == 0, lost) << i;
     }
 }
 
@@ -450,11 +451,11 @@ TEST(VisualSlam, refusesMapsThatDoNotFit) {
     const MappedWorld mapped;
     SlamOptions other;
     other.features.levels = 5;
-    EXPECT_THROW(VisualSlam(other, mapped.camera, mapped.map, MapUse::Localise), Error);
+    EXPECT_THROW(VisualSlam(other, mapped.camera, mapped.map, MapUse::Localize), Error);
     Camera zoomed = mapped.camera;
     zoomed.fx *= 1.1;
     EXPECT_THROW(VisualSlam(SlamOptions{}, zoomed, mapped.map, MapUse::Extend), Error);
-    EXPECT_NO_THROW(VisualSlam(SlamOptions{}, zoomed, mapped.map, MapUse::Localise));
+    EXPECT_NO_THROW(VisualSlam(SlamOptions{}, zoomed, mapped.map, MapUse::Localize));
 }
 
 TEST(VisualSlam, givesTheSameBitsTwice) {

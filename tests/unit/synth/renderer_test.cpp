@@ -20,9 +20,9 @@ Scene tiltedWall(double tilt_rad) {
     Scene scene;
     Random random(3);
     const cv::Mat noise = fractalNoise({2048, 2048}, {64, 64}, 4, 0.8, random);
-    cv::Mat grey, picture;
-    noise.convertTo(grey, CV_8UC1, 200, 128);
-    cv::cvtColor(grey, picture, cv::COLOR_GRAY2BGR);
+    cv::Mat gray, picture;
+    noise.convertTo(gray, CV_8UC1, 200, 128);
+    cv::cvtColor(gray, picture, cv::COLOR_GRAY2BGR);
     const SE3 frame = standing(4, 0, 1, std::acos(-1.0) + tilt_rad);
     addRectangle(scene, scene.quads, frame * SE3(Eigen::Matrix3d::Identity(), {0, -10, -10}), 20,
                  20, {scene.addMaterial(picture)});
@@ -76,7 +76,7 @@ TEST(Renderer, DepthOfABoxIsExactButForItsRim) {
     for (int v = 0; v < camera.height; ++v)
         for (int u = 0; u < camera.width; ++u)
             off += std::abs(depth.at<float>(v, u) - sceneDepth(scene, camera, pose, u, v)) > 1e-3;
-    EXPECT_LT(off, 60);  // pixels whose centre is within rounding of the outline
+    EXPECT_LT(off, 60);  // pixels whose center is within rounding of the outline
 }
 
 TEST(Renderer, NothingInSightHasNoDepth) {

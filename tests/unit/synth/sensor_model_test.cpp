@@ -34,7 +34,7 @@ TEST_P(WallNoise, FollowsTheModel) {
 }
 INSTANTIATE_TEST_SUITE_P(Distances, WallNoise, testing::Values(0.7, 1.0, 1.5, 2.0, 3.0, 3.9));
 
-TEST(DepthSensor, DisparitiesAreQuantised) {
+TEST(DepthSensor, DisparitiesAreQuantized) {
     const Camera camera = {320, 240, 262.5, 262.5, 159.5, 119.5, {}};
     const cv::Mat wall(240, 320, CV_32FC1, cv::Scalar(3.0));
     const cv::Mat readings = senseDepth(wall, camera, DepthSensorModel{}, Random(1));
@@ -86,9 +86,9 @@ TEST(DepthUnits, AreFiveThousandAMetre) {
 TEST(ColorSensor, NoiseGrowsWithTheSignalAndTheGain) {
     const ColorSensorModel model;
     const auto deviation = [&](double level, double gain) {
-        const cv::Mat grey(480, 640, CV_8UC3, cv::Scalar::all(level));
+        const cv::Mat gray(480, 640, CV_8UC3, cv::Scalar::all(level));
         cv::Scalar mean, spread;
-        cv::meanStdDev(senseColor(grey, 1, gain, model, Random(1)), mean, spread);
+        cv::meanStdDev(senseColor(gray, 1, gain, model, Random(1)), mean, spread);
         EXPECT_NEAR(mean[1], level, 0.6);
         return spread[1];
     };

@@ -34,7 +34,7 @@ void fill(Tree& tree) {
     tree.updateInnerOccupancy();
 }
 
-TEST_F(MapExport, pointsKeepPlaceAndColour) {
+TEST_F(MapExport, pointsKeepPlaceAndColor) {
     const Vertices points = {{{1, 2, 3}, {4, 5, 6, 255}}, {{-1, 0, 2.5f}, {7, 8, 9, 255}}};
     exportPoints(points, ExportFormat::Ply, path("a.ply"));
     const PointMap read = loadPly(path("a.ply"));

@@ -11,7 +11,7 @@ namespace {
 
 const Eigen::Vector2i size_px(640, 480);
 
-/** A square of side `side_m` on the floor, n x n points; each one's colour is its number. */
+/** A square of side `side_m` on the floor, n x n points; each one's color is its number. */
 Vertices sheet(int n, float side_m) {
     Vertices points;
     for (int i = 0; i < n * n; ++i) {

@@ -5,7 +5,7 @@
 namespace rgbd_graphslam {
 namespace {
 
-/** A frame a second from 100 s on, each second one a keyframe. */
+/** A frame a second from 100 s on, each second one per keyframe. */
 RunData tenSeconds() {
     RunData run;
     for (int i = 0; i <= 10; ++i) {
@@ -39,7 +39,7 @@ TEST(Replay, beginsWithTheFirstFrameAndEndsWithEverything) {
     EXPECT_EQ(timeSpan(RunData()), std::make_pair(0.0, 0.0));
 }
 
-TEST(PoseAt, isBetweenItsNeighbours) {
+TEST(PoseAt, isBetweenItsNeighbors) {
     const Trajectory trajectory = tenSeconds().trajectory;
     EXPECT_NEAR(poseNear(trajectory, 103.25)->t.x(), 3.25, 1e-12);
     EXPECT_DOUBLE_EQ(poseNear(trajectory, 90)->t.x(), 0);

@@ -69,14 +69,14 @@ TEST_F(RunFolder, isReadWithoutItsRecordingAndMaps) {
     EXPECT_EQ(run.frame_times_ms, (std::vector<float>{6.5f, 30}));
 }
 
-TEST_F(RunFolder, aLocalisedRunComesWithItsMap) {
+TEST_F(RunFolder, aLocalizedRunComesWithItsMap) {
     const fs::path later = folder_ / "later";
     fs::create_directories(later);
     savePly(path("points.ply"), {{{1, 2, 3}, {4, 5, 6}}});
     write("later/trajectory.txt", toTumText(poses(2)));
     write("later/frames.csv", "stamp_s,origin,inliers,keyframe\n1.0,tracked,70,0\n9.0,lost,0,\n");
     write("later/summary.json",
-          R"({"rawlog": "later.rawlog", "map": {"folder": "..", "use": "localise"}})");
+          R"({"rawlog": "later.rawlog", "map": {"folder": "..", "use": "localize"}})");
     const RunData run = loadRun(later.string());
     EXPECT_EQ(run.folder, later.string());
     EXPECT_EQ(run.trajectory.size(), 2U);
@@ -87,9 +87,9 @@ TEST_F(RunFolder, aLocalisedRunComesWithItsMap) {
     EXPECT_EQ(run.frames[0].inliers, 70);
     EXPECT_TRUE(run.truth.empty());
     EXPECT_THROW(readRunFolder(later.string(), ""), Error);  // of which no map can be made
-    write("later/summary.json", R"({"map": {"folder": "/no/such/map", "use": "localise"}})");
+    write("later/summary.json", R"({"map": {"folder": "/no/such/map", "use": "localize"}})");
     EXPECT_THROW(loadRun(later.string()), Error);
-    write("later/summary.json", R"({"map": {"folder": 7, "use": "localise"}})");
+    write("later/summary.json", R"({"map": {"folder": 7, "use": "localize"}})");
     EXPECT_THROW(loadRun(later.string()), Error);
     write("later/summary.json", R"({"map": {"folder": "..", "use": 7}})");
     EXPECT_THROW(loadRun(later.string()), Error);  // then it should have keyframes

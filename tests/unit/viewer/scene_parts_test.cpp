@@ -72,7 +72,7 @@ TEST(OuterFaces, aLoneCellIsACube) {
     EXPECT_EQ(faces[0][0].color, (Rgba{1, 2, 3, 255}));
 }
 
-TEST(OuterFaces, sidesBetweenNeighboursAreLeftOut) {
+TEST(OuterFaces, sidesBetweenNeighborsAreLeftOut) {
     std::vector<OctreeCell> row;
     for (int i = -3; i < 5; ++i) {
         row.push_back({{0.1f * static_cast<float>(i) + 0.05f, 0.05f, -0.05f}, 0.1f, {}});
@@ -104,7 +104,7 @@ TEST(OuterFaces, fourSmallCellsHideALargeOnesSide) {
     EXPECT_EQ(faces[1].size(), 6U);      // of the large one
 }
 
-TEST(GridTriangles, equalNeighboursShareARectangleAndUnseenCellsAreOpen) {
+TEST(GridTriangles, equalNeighborsShareARectangleAndUnseenCellsAreOpen) {
     GridMap grid;
     grid.width = 5, grid.height = 2;
     grid.resolution_m = 0.1, grid.x_min_m = -1, grid.y_min_m = 2;

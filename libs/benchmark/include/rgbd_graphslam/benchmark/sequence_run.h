@@ -23,9 +23,9 @@ struct SequenceRunOptions {
 /** Text that changes with the recording, the settings and the programs. */
 std::string fingerprintOf(const FoundSequence& sequence, const SequenceRunOptions& options);
 
-/** Runs rgbd-import, rgbd-slam and rgbd-viewer as processes, evaluates the trajectory, and leaves in
- *  `folder`: result.json, ate.png, view.png, run/ (the output of rgbd-slam) and what the processes
- *  said. What goes wrong with the sequence is the result's `problem`, not an exception. */
+/** Runs rgbd-import, rgbd-slam and rgbd-viewer as processes, evaluates the trajectory, and leaves
+ * in `folder`: result.json, ate.png, view.png, run/ (the output of rgbd-slam) and what the
+ * processes said. What goes wrong with the sequence is the result's `problem`, not an exception. */
 SequenceResult runSequence(const FoundSequence& sequence, const SequenceRunOptions& options,
                            const std::string& folder);
 

@@ -6,8 +6,8 @@
 
 namespace rgbd_graphslam {
 
-/** A bar with rate and ETA when stderr is a terminal; otherwise a plain line every tenth but at least
- *  two seconds apart, so that short jobs say nothing; nothing when quiet. */
+/** A bar with rate and ETA when stderr is a terminal; otherwise a plain line every tenth but at
+ * least two seconds apart, so that short jobs say nothing; nothing when quiet. */
 class Progress {
   public:
     /** \param label what is counted, e.g. "tracking"

@@ -9,18 +9,18 @@
 
 namespace rgbd_graphslam {
 
-/** Warps images of a depth camera to a colour camera beside it. */
+/** Warps images of a depth camera to a color camera beside it. */
 class DepthRegistration {
   public:
-    /** \param T_color_depth from the depth camera's optical frame to the colour camera's
-     *  \param unit_m metres a unit of depth */
+    /** \param T_color_depth from the depth camera's optical frame to the color camera's
+     *  \param unit_m meters a unit of depth */
     DepthRegistration(const Camera& depth, const Camera& color, const SE3& T_color_depth,
                       double unit_m);
 
-    /** Each reading goes where colour sees it, as large as colour sees its pixel; of several at one
+    /** Each reading goes where color sees it, as large as color sees its pixel; of several at one
      *  place the nearest stays. What depth could not see behind things has no reading.
      *  \param depth CV_16UC1 of the depth camera's size
-     *  \return CV_16UC1 of the colour camera's size, in the same unit */
+     *  \return CV_16UC1 of the color camera's size, in the same unit */
     cv::Mat operator()(const cv::Mat& depth) const;
 
   private:

@@ -5,13 +5,13 @@
 
 namespace rgbd_graphslam {
 
-/** Stamp of the depth image by stamp of the colour image, both in microseconds of UNIX time; frames
- *  whose stamps agree are left out. An RGB-D observation has one time only, that of its colour
+/** Stamp of the depth image by stamp of the color image, both in microseconds of UNIX time; frames
+ *  whose stamps agree are left out. An RGB-D observation has one time only, that of its color
  *  image, so a rawlog keeps these in its comment block (CObservationComment, an ini text), where
  *  every MRPT tool preserves and shows them. */
 using DepthStamps = std::map<long long, long long>;
 
-/** The lines `colour stamp = depth stamp` of section [depth_stamps]; nothing when there is none. */
+/** The lines `color stamp = depth stamp` of section [depth_stamps]; nothing when there is none. */
 std::string toIniText(const DepthStamps& stamps);
 
 /** Inverse of toIniText; lines of other sections and lines of another form are passed over, because

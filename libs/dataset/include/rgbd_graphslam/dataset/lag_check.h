@@ -1,4 +1,4 @@
-/** Whether colour and depth of a pair were taken at the same time. */
+/** Whether color and depth of a pair were taken at the same time. */
 #pragma once
 #include <Eigen/Core>
 #include <cstddef>
@@ -10,15 +10,15 @@
 namespace rgbd_graphslam {
 
 struct DepthLag {
-    /** Depth shows what colour showed so much earlier; negative: what it shows later. */
+    /** Depth shows what color showed so much earlier; negative: what it shows later. */
     double seconds = 0;
     /** The same in frames. */
     int frames = 0;
-    /** How well outlines in depth fit colour's edges then: standard deviations per frame. */
+    /** How well outlines in depth fit color's edges then: standard deviations per frame. */
     double agreement = 0;
 };
 
-/** Compares the outlines in some depth images with the edges of the colour images up to half a
+/** Compares the outlines in some depth images with the edges of the color images up to half a
  *  second before and after. A camera in motion tells which of them fits best; one that stands still
  *  tells nothing. */
 class LagCheck {
@@ -41,7 +41,7 @@ class LagCheck {
         double stamp_s = 0;
         int width = 0;
         std::vector<Eigen::Vector2f> outlines;
-        /** By how many frames earlier colour was taken. */
+        /** By how many frames earlier color was taken. */
         std::map<int, double> agreements, delays_s;
     };
     bool isAnchor(std::size_t frame) const { return frame % stride_ == stride_ / 2; }

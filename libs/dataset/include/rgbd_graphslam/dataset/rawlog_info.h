@@ -13,7 +13,7 @@ struct RawlogInfo {
     /** UNIX time of the first and last RGB-D frame in file order; 0 without frames. */
     double first_stamp_s = 0, last_stamp_s = 0;
     /** Of the first frame: calibration, depth unit, pose of the camera's optical frame on the
-     *  robot, and whether depth is registered to colour. */
+     *  robot, and whether depth is registered to color. */
     Camera camera;
     double depth_unit_m = 0;
     SE3 T_base_cam;
@@ -27,7 +27,7 @@ struct RawlogInfo {
  *  \throws Error when it is missing or not a rawlog */
 RawlogInfo inspectRawlog(const std::string& path);
 
-/** Ground truth in a rawlog, as poses of the colour camera's optical frame in the truth's world.
+/** Ground truth in a rawlog, as poses of the color camera's optical frame in the truth's world.
  *  \return empty when there is none
  *  \throws Error as RawlogReader does */
 Trajectory truthOf(const std::string& rawlog_path);

@@ -12,9 +12,9 @@ namespace rgbd_graphslam {
 enum class RawlogStorage {
     /** Everything in one file, pixels raw: the fastest to read and write. */
     Embedded,
-    /** Colour as PNG or JPEG files, depth as MRPT's compressed files, in `<name>_Images`. */
+    /** Color as PNG or JPEG files, depth as MRPT's compressed files, in `<name>_Images`. */
     Compact,
-    /** One gz file with colour as JPEG of quality 90, depth exact: for handing samples out. */
+    /** One gz file with color as JPEG of quality 90, depth exact: for handing samples out. */
     Small
 };
 
@@ -25,7 +25,7 @@ class RawlogWriter {
 
     virtual void write(mrpt::obs::CObservation& observation) = 0;
 
-    /** \param color_file what the colour image was decoded from; compact storage copies it, if it
+    /** \param color_file what the color image was decoded from; compact storage copies it, if it
      * is PNG or JPEG, instead of encoding the pixels again. Empty when there is none */
     virtual void writeFrame(mrpt::obs::CObservation3DRangeScan& frame,
                             const std::string& color_file) = 0;

@@ -15,27 +15,27 @@ inline constexpr const char* odometry_label = "ODOMETRY";
 inline constexpr const char* ground_truth_label = "GROUND_TRUTH";
 
 /** The frame in our terms. Depth that another camera took, by the observation's two calibrations
- * and their relative pose, is registered to colour. Other pixels are shared with the observation,
- * which `owner` keeps alive; images stored outside the rawlog are loaded; the grey image is made
- * here. \throws Error naming the stamp when colour or depth is absent or unreadable, of different
+ * and their relative pose, is registered to color. Other pixels are shared with the observation,
+ * which `owner` keeps alive; images stored outside the rawlog are loaded; the gray image is made
+ * here. \throws Error naming the stamp when color or depth is absent or unreadable, of different
  * size without two calibrations that say why, when the two calibrations cannot be right, when
  *          ranges are not depths along the optical axis, or as cameraOf() */
 RgbdImage toRgbdImage(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
 
-/** The same without a grey image that is made: there is one only where the camera is grey, and then
- *  no colour image. */
+/** The same without a gray image that is made: there is one only where the camera is gray, and then
+ *  no color image. */
 RgbdImage colorAndDepth(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
 
-/** Calibration of the colour camera. One made for images an exact number of times as large or small
+/** Calibration of the color camera. One made for images an exact number of times as large or small
  *  as the observation's is resized, which is said once.
  *  \throws Error naming the stamp when it is none, or of a lens whose distortion cannot be undone
  */
 Camera cameraOf(const mrpt::obs::CObservation3DRangeScan& observation);
 
-/** Pose of the colour camera's optical frame on the robot's base. */
+/** Pose of the color camera's optical frame on the robot's base. */
 SE3 cameraOnRobot(const mrpt::obs::CObservation3DRangeScan& observation);
 
-/** An observation with calibration and pose, without images. \param stamp_s of the colour image */
+/** An observation with calibration and pose, without images. \param stamp_s of the color image */
 mrpt::obs::CObservation3DRangeScan::Ptr makeRgbdObservation(const CameraSetup& setup,
                                                             double stamp_s);
 
@@ -43,7 +43,7 @@ mrpt::obs::CObservation3DRangeScan::Ptr makeRgbdObservation(const CameraSetup& s
  *  \param depth CV_16UC1 in units of the setup the observation was made with */
 void setDepth(mrpt::obs::CObservation3DRangeScan& observation, const cv::Mat& depth);
 
-/** Shares a colour image (CV_8UC3, BGR) with an observation. */
+/** Shares a color image (CV_8UC3, BGR) with an observation. */
 void setColor(mrpt::obs::CObservation3DRangeScan& observation, const cv::Mat& color);
 
 }  // namespace rgbd_graphslam

@@ -36,7 +36,7 @@ struct RgbdSequence {
      *  images and hold the confidence in each reading: readings of 0 are none. Empty: there are
      *  none. */
     std::string confidence_folder;
-    /** Poses of the colour camera's optical frame. */
+    /** Poses of the color camera's optical frame. */
     Trajectory truth;
     /** Accelerometer (m/s^2) and gyroscope (rad/s), in the IMU's axes. */
     std::vector<StampedVector> acceleration, angular_velocity;
@@ -45,10 +45,10 @@ struct RgbdSequence {
     /** Readings of further sensors (laser scans, GPS), as they go into the rawlog. */
     std::vector<mrpt::obs::CObservation::Ptr> others;
 
-    /** Calibration that came with the recording: of the colour camera, and of the depth camera
-     *  where depth is not registered to colour. */
+    /** Calibration that came with the recording: of the color camera, and of the depth camera
+     *  where depth is not registered to color. */
     std::optional<CameraSetup> camera, depth_camera;
-    /** Depth units per metre, where the recording itself tells them. */
+    /** Depth units per meter, where the recording itself tells them. */
     std::optional<double> depth_units;
     /** What was found, chosen and left out, a line each; told at the end of the import. */
     std::vector<std::string> notes;

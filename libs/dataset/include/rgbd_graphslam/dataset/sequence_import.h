@@ -16,7 +16,7 @@
 namespace rgbd_graphslam {
 
 struct ImportOptions {
-    /** Colour and depth further apart than this are no pair, s. */
+    /** Color and depth further apart than this are no pair, s. */
     double max_difference_s = 0.02;
     /** Added to depth's stamps before. */
     double depth_offset_s = 0;
@@ -31,8 +31,8 @@ struct ImportOptions {
     std::optional<std::uint16_t> no_reading;
     /** Frames whose image is damaged are left out and counted instead of an error. */
     bool skip_damaged = false;
-    /** The camera that took the depth images, when they are not registered to colour: they are
-     *  warped then. Its pose and the colour camera's on the robot tell how they lie to each other;
+    /** The camera that took the depth images, when they are not registered to color: they are
+     *  warped then. Its pose and the color camera's on the robot tell how they lie to each other;
      *  its depth unit is that of the images. */
     std::optional<CameraSetup> depth_camera;
     /** Threads that decode images. */
@@ -66,7 +66,7 @@ struct ImportReport {
     std::vector<std::string> warnings;
     /** Depth over the whole recording. */
     DepthSummary depth_summary;
-    /** How depth lies against colour, and by how much it is late: at most one of them, the one that
+    /** How depth lies against color, and by how much it is late: at most one of them, the one that
      *  explains the images better. Nothing when it lies well or nothing can be told. */
     std::optional<Misregistration> misregistration;
     std::optional<DepthLag> depth_lag;
@@ -81,11 +81,11 @@ struct ImportReport {
 /** A few lines for the user. */
 std::string toText(const ImportReport& report);
 
-/** Writes colour and depth pairs (stamped by colour), accelerometer and gyroscope, odometry and
+/** Writes color and depth pairs (stamped by color), accelerometer and gyroscope, odometry and
  *  ground truth to a rawlog, in order of time over all sensors. Depth keeps its bits; its own
  *  stamps are kept as DepthStamps. Shows progress.
  *  Calibrations made for images an exact number of times as large or small are resized; depth of
- *  another size but the same aspect ratio is resampled to colour's without interpolation.
+ *  another size but the same aspect ratio is resampled to color's without interpolation.
  *  \throws Error when nothing can be paired, more than half would be lost, the calibration cannot
  * be right, an image is of the wrong kind or size, a damaged or (if strict) missing image is met,
  * or the rawlog cannot be written */

@@ -17,19 +17,19 @@ enum class SequenceLayout {
      *  is mirrored on reading, so that a camera with y down fits to it. */
     Icl,
     /** Microsoft 7-Scenes: frame-N.color.png, frame-N.depth.png (mm, 65535 is no reading) and
-     *  frame-N.pose.txt (4x4, camera to world). Its depth is not registered to colour. */
+     *  frame-N.pose.txt (4x4, camera to world). Its depth is not registered to color. */
     SevenScenes,
     /** Bonn RGB-D Dynamic: as Tum, with one camera for all sequences. */
     Bonn,
     /** ETH3D SLAM: as Tum, with the camera in calibration.txt (`fx fy cx cy`). */
     Eth3d,
     /** Folders color/ and depth/ (mm), where present poses/ or pose/ with a 4x4 matrix (camera to
-     *  world) for each colour image, or groundtruth.txt, and Open3D's camera_intrinsic.json or
+     *  world) for each color image, or groundtruth.txt, and Open3D's camera_intrinsic.json or
      *  another calibration, see calibrationIn(). */
     RealSense,
     /** associations.txt (or a variant of the name) with stamps: `stamp file stamp file`. */
     Associations,
-    /** As RealSense, with the colour images in rgb/, image/ or images/. */
+    /** As RealSense, with the color images in rgb/, image/ or images/. */
     Folders,
     /** Stray Scanner on an iPhone, see phone_folders.h. */
     StrayScanner,
@@ -59,7 +59,7 @@ SequenceLayout detectLayout(const std::string& folder);
  *          the layout's form */
 RgbdSequence readSequence(const std::string& folder, SequenceLayout layout, double rate_hz);
 
-/** Gives a calibration that states no image size that of the sequence's first colour image.
+/** Gives a calibration that states no image size that of the sequence's first color image.
  *  \throws Error when the image cannot be read */
 void completeImageSize(const RgbdSequence& sequence, Camera& camera);
 

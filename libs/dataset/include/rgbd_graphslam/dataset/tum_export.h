@@ -9,7 +9,7 @@ namespace rgbd_graphslam {
 
 struct ExportOptions {
     /** Only what was recorded within these bounds, in s after the first RGB-D frame; frames
-     *  count by their colour stamp. */
+     *  count by their color stamp. */
     double from_s = -std::numeric_limits<double>::infinity();
     double to_s = std::numeric_limits<double>::infinity();
     /** Every n-th frame of that time. */

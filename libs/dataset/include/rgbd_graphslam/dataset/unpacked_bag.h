@@ -21,10 +21,10 @@ struct BagOptions {
 /** What an RGB-D camera and a robot left in a ROS bag. Images go to a temporary folder that goes
  *  when this object goes. Recordings of ROS 1, ROS 2 and librealsense's recorder are understood:
  *
- *  - colour: sensor_msgs/Image or CompressedImage (JPEG, PNG). Colour is preferred to grey, visible
+ *  - color: sensor_msgs/Image or CompressedImage (JPEG, PNG). Color is preferred to gray, visible
  *    light to infrared, raw pixels to compressed ones, the first recorded to others.
  *  - depth: 16-bit integers in mm (or librealsense's depth unit), 32-bit floats in m, both also
- *    packed by compressed_depth_image_transport. Depth registered to colour is preferred; raw depth
+ *    packed by compressed_depth_image_transport. Depth registered to color is preferred; raw depth
  *    sets RgbdSequence::depth_camera where the calibrations of both cameras and their poses to each
  *    other are recorded.
  *  - calibrations: sensor_msgs/CameraInfo, unless the bag's name tells one of TUM's cameras; poses
@@ -37,7 +37,7 @@ struct BagOptions {
 class UnpackedBag {
   public:
     /** \param scratch folder to unpack in; needs room for all images
-     *  \throws Error when the bag is damaged, or lacks colour or depth images of a kind that is
+     *  \throws Error when the bag is damaged, or lacks color or depth images of a kind that is
      *          understood (it lists the topics then) */
     UnpackedBag(const std::string& bag, const std::string& scratch, const BagOptions& options = {});
 

@@ -11,7 +11,7 @@ namespace rgbd_graphslam {
 bool isSens(const std::string& path);
 
 /** A `.sens` file (version 4) unpacked into a temporary folder that goes when this object goes:
- *  colour as the JPEG or PNG bytes that are in it, depth (raw or zlib) as 16-bit PNG, both cameras'
+ *  color as the JPEG or PNG bytes that are in it, depth (raw or zlib) as 16-bit PNG, both cameras'
  *  intrinsics, the poses in it as ground truth. One frame is in memory at a time. */
 class UnpackedSens {
   public:

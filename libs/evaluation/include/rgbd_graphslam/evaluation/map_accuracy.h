@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <optional>
 
-#include "rgbd_graphslam/evaluation/alignment.h"
-#include "rgbd_graphslam/evaluation/ply.h"
-#include "rgbd_graphslam/evaluation/statistics.h"
 #include "rgbd_graphslam/evaluation/surface_sight.h"
+#include "rgbd_graphslam/geometry/ply.h"
+#include "rgbd_graphslam/metrics/alignment.h"
+#include "rgbd_graphslam/metrics/statistics.h"
 
 namespace rgbd_graphslam {
 
@@ -37,7 +37,7 @@ struct MapAccuracy {
  *  multi-view stereo reconstruction algorithms", CVPR 2006.
  *  \param surface triangles, or points that sample it densely
  *  \throws Error for an option that is not positive a map without points, or a surface too large to
- *          be one in metres */
+ *          be one in meters */
 MapAccuracy evaluateMap(const PlyModel& map, const PlyModel& surface,
                         const MapAccuracyOptions& options = {});
 

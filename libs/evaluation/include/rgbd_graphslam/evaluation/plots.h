@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "rgbd_graphslam/evaluation/ate.h"
-#include "rgbd_graphslam/evaluation/rpe.h"
+#include "rgbd_graphslam/metrics/ate.h"
+#include "rgbd_graphslam/metrics/rpe.h"
 
 namespace rgbd_graphslam {
 

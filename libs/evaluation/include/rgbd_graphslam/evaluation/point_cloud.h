@@ -1,11 +1,11 @@
-/** Coloured points from RGB-D images, as the TUM benchmark's tools make them. */
+/** Colored points from RGB-D images, as the TUM benchmark's tools make them. */
 #pragma once
 #include <string>
 #include <unordered_set>
 #include <vector>
 
-#include "rgbd_graphslam/evaluation/ply.h"
 #include "rgbd_graphslam/geometry/camera.h"
+#include "rgbd_graphslam/geometry/ply.h"
 #include "rgbd_graphslam/geometry/rgbd_image.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 
@@ -24,7 +24,7 @@ class PointCloudBuilder {
     PointCloudBuilder(const Camera& camera, const PointCloudOptions& options);
 
     /** Adds the pixels that have a depth; with distortion, along their true rays.
-     *  \param image with colour, of the camera's size
+     *  \param image with color, of the camera's size
      *  \throws Error when it is of another size */
     void add(const RgbdImage& image, const SE3& T_world_cam);
 
@@ -46,7 +46,7 @@ struct PosedImageFiles {
     SE3 T_world_cam;
 };
 
-/** Images of two lists ("stamp file") associated with each other and, by the stamp of the colour
+/** Images of two lists ("stamp file") associated with each other and, by the stamp of the color
  *  image, with a trajectory; file names are relative to the lists' folders.
  *  \throws Error when nothing fits together */
 std::vector<PosedImageFiles> posedImages(const std::string& color_list,
@@ -57,7 +57,7 @@ std::vector<PosedImageFiles> posedImages(const std::string& color_list,
 std::vector<PosedImageFiles> posedImages(const std::string& pair_list, const Trajectory& trajectory,
                                          double max_difference_s);
 
-/** \param depth_unit_m metres a unit of the depth image
+/** \param depth_unit_m meters a unit of the depth image
  *  \throws Error naming the file when one cannot be read, depth is not 16-bit or sizes differ */
 RgbdImage readRgbdImage(const std::string& color, const std::string& depth, double depth_unit_m);
 

@@ -2,8 +2,8 @@
 #pragma once
 #include <string>
 
-#include "rgbd_graphslam/evaluation/ply.h"
 #include "rgbd_graphslam/export/textured_mesh.h"
+#include "rgbd_graphslam/geometry/ply.h"
 
 namespace rgbd_graphslam {
 

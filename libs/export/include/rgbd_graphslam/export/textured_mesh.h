@@ -7,9 +7,9 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "rgbd_graphslam/evaluation/ply.h"
 #include "rgbd_graphslam/export/atlas_packing.h"
 #include "rgbd_graphslam/export/view_selection.h"
+#include "rgbd_graphslam/geometry/ply.h"
 
 namespace rgbd_graphslam {
 

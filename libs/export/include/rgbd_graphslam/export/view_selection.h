@@ -5,8 +5,8 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-#include "rgbd_graphslam/evaluation/ply.h"
 #include "rgbd_graphslam/geometry/camera.h"
+#include "rgbd_graphslam/geometry/ply.h"
 #include "rgbd_graphslam/geometry/se3.h"
 
 namespace rgbd_graphslam {

@@ -6,17 +6,17 @@
 
 namespace rgbd_graphslam {
 
-/** Grey and depth at some 80 columns, undistorted; row by row. */
+/** Gray and depth at some 80 columns, undistorted; row by row. */
 struct DenseView {
     /** Of the small image, without distortion. */
     Camera camera{0, 0, 1, 1, 0, 0, {}};
-    std::vector<float> grey;     // 0 to 255
+    std::vector<float> gray;     // 0 to 255
     std::vector<float> depth_m;  // along the optical axis; 0 = none
 
-    bool empty() const { return grey.empty(); }
+    bool empty() const { return gray.empty(); }
     /** Share of the pixels that have depth. */
     double depthShare() const;
-    /** Standard deviation of the grey values. */
+    /** Standard deviation of the gray values. */
     double contrast() const;
 };
 

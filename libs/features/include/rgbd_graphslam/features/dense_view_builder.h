@@ -12,7 +12,7 @@ class DenseViewBuilder {
     explicit DenseViewBuilder(const Camera& camera);
 
     /** Means over blocks of pixels. Thread-safe.
-     *  \param image grey and depth of the camera's size */
+     *  \param image gray and depth of the camera's size */
     DenseView build(const RgbdImage& image) const;
     /** Of the views. */
     const Camera& camera() const { return small_; }

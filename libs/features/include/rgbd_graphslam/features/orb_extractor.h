@@ -31,8 +31,8 @@ class OrbExtractor {
     explicit OrbExtractor(const FeatureOptions& options);
     ~OrbExtractor();
 
-    /** Thread-safe. \param grey CV_8UC1 of any size; too small levels are left out */
-    OrbFeatures extract(const cv::Mat& grey) const;
+    /** Thread-safe. \param gray CV_8UC1 of any size; too small levels are left out */
+    OrbFeatures extract(const cv::Mat& gray) const;
 
   private:
     FeatureOptions options_;

@@ -7,14 +7,14 @@
 
 namespace rgbd_graphslam {
 
-/** Grey values around a corner on its pyramid level. */
+/** Gray values around a corner on its pyramid level. */
 struct Patch {
     static constexpr int side = 16;  // px
     /** Row and column of the corner's pixel. */
-    static constexpr int centre = side / 2;
+    static constexpr int center = side / 2;
 
-    std::array<std::uint8_t, side * side> grey{};
-    /** Place of the corner relative to the centre of its pixel, px. */
+    std::array<std::uint8_t, side * side> gray{};
+    /** Place of the corner relative to the center of its pixel, px. */
     cv::Point2f corner{0, 0};
 };
 
@@ -26,12 +26,12 @@ struct PatchMotion {
     float roll_rad = 0;
 };
 
-/** Places the corner of `reference` in `patch` by least squares over grey values, whose mean may
+/** Places the corner of `reference` in `patch` by least squares over gray values, whose mean may
  *  differ: Lucas and Kanade's alignment in the inverse compositional form (Baker and Matthews,
  *  "Lucas-Kanade 20 years on", IJCV 2004).
  *  \param motion from `reference` to `patch`
  *  \return offset from the corner of `patch`, px of its level; nothing when the motion is too large
- *          for the patch, grey values do not tell the place, or the two do not look alike */
+ *          for the patch, gray values do not tell the place, or the two do not look alike */
 std::optional<cv::Point2f> alignPatch(const Patch& reference, const PatchMotion& motion,
                                       const Patch& patch);
 

@@ -6,7 +6,7 @@
 namespace rgbd_graphslam {
 
 /** Intrinsics in pixels of an image width x height; optical frame x right, y down, z forward. Pixel
- *  (0, 0) is the centre of the top-left pixel. */
+ *  (0, 0) is the center of the top-left pixel. */
 struct Camera {
     int width = 640, height = 480;
     double fx = 525, fy = 525, cx = 319.5, cy = 239.5;

@@ -1,4 +1,4 @@
-/** One colour image with depth registered to it. */
+/** One color image with depth registered to it. */
 #pragma once
 #include <memory>
 #include <opencv2/core/mat.hpp>
@@ -8,7 +8,7 @@ namespace rgbd_graphslam {
 /** Images of one size; cheap to copy (pixels are shared). */
 struct RgbdImage {
     double stamp_s = 0;
-    cv::Mat grey;   // CV_8UC1; may be empty where only colour is asked for
+    cv::Mat gray;   // CV_8UC1; may be empty where only color is asked for
     cv::Mat color;  // CV_8UC3, BGR; may be empty
     cv::Mat depth;  // CV_16UC1, in units of depth_unit_m along the optical axis; 0 = no reading
     double depth_unit_m = 0.001;

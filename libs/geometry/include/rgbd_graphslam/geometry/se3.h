@@ -34,7 +34,7 @@ struct SE3 {
     SE3 operator*(const SE3& other) const { return {R * other.R, R * other.t + t}; }
     Eigen::Vector3d operator*(const Eigen::Vector3d& p) const { return R * p + t; }
 
-    /** Left-perturbed by a tangent vector, with the rotation re-orthonormalised so that errors do
+    /** Left-perturbed by a tangent vector, with the rotation re-orthonormalized so that errors do
      *  not grow over long products. */
     SE3 retract(const Vector6d& delta) const;
 
@@ -47,9 +47,10 @@ struct SE3 {
 };
 
 /** Nearest rotation to a matrix that has drifted by rounding. */
-Eigen::Matrix3d orthonormalised(const Eigen::Matrix3d& R);
+Eigen::Matrix3d orthonormalized(const Eigen::Matrix3d& R);
 
-/** Between two poses: linear in translation, spherical-linear in rotation. \param share in [0, 1] */
+/** Between two poses: linear in translation, spherical-linear in rotation. \param share in [0, 1]
+ */
 SE3 interpolate(const SE3& from, const SE3& to, double share);
 
 }  // namespace rgbd_graphslam

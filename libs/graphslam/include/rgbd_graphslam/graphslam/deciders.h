@@ -30,7 +30,7 @@ class COrbKeyframeNRD : public mrpt::graphslam::deciders::CNodeRegistrationDecid
     global_pose_t getCurrentRobotPosEstimation() const override;
 };
 
-/** Recognises places at each new keyframe and adds verified loop edges. */
+/** Recognizes places at each new keyframe and adds verified loop edges. */
 class COrbLoopClosureERD
     : public mrpt::graphslam::deciders::CEdgeRegistrationDecider<KeyframeGraph> {
   public:
@@ -47,7 +47,7 @@ class COrbLoopClosureERD
                          const constraint_t& edge) override;
 };
 
-/** Optimises the keyframe poses with Ceres after each loop, and moves the map with them. */
+/** Optimizes the keyframe poses with Ceres after each loop, and moves the map with them. */
 class CCeresGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<KeyframeGraph> {
   public:
     CCeresGSO();

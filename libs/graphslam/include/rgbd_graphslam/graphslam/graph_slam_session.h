@@ -51,7 +51,7 @@ class GraphSlamSession {
     void load(ByteReader& in);
 
     const VisualSlam& slam() const;
-    /** Pose of the colour camera's optical frame on the robot's base. */
+    /** Pose of the color camera's optical frame on the robot's base. */
     const SE3& T_base_cam() const;
     /** Stages of slam() and of the engine. */
     std::vector<VisualSlam::StageTime> stageTimes() const;

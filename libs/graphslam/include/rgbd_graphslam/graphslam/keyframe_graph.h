@@ -37,7 +37,7 @@ struct SharedSlam {
 struct KeyframeGraph : mrpt::graphs::CNetworkOfPoses3DInf {
     std::shared_ptr<SharedSlam> shared = std::make_shared<SharedSlam>();
 
-    /** MRPT's engine calls this after each new node, which would throw the optimised poses away. */
+    /** MRPT's engine calls this after each new node, which would throw the optimized poses away. */
     template <class... Arguments>
     void dijkstra_nodes_estimate(Arguments&&...) {}
 };
@@ -48,7 +48,7 @@ void startSlam(SharedSlam& shared, const mrpt::obs::CObservation3DRangeScan& fra
 /** A map that a run starts from. */
 struct StartMap {
     MapSnapshot map;
-    MapUse use = MapUse::Localise;
+    MapUse use = MapUse::Localize;
 };
 
 /** Starts in a map, which fills the graph with its keyframes, odometry and loops.

@@ -60,7 +60,7 @@ struct LiveMap {
 using LiveMessage = std::variant<LiveFrame, LiveMap>;
 
 /** Reduces the images of a frame into the message, to 320 columns at most of a picture, to 96 of
- *  another; of a grey camera the three colours are the same. */
+ *  another; of a gray camera the three colors are the same. */
 void putImages(const RgbdImage& image, LiveFrame& frame);
 
 /** The camera of the images in the message.

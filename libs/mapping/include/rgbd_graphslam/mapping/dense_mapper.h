@@ -3,11 +3,11 @@
 #include <memory>
 #include <string>
 
-#include "rgbd_graphslam/evaluation/ply.h"
-#include "rgbd_graphslam/mapping/distance_volume.h"
+#include "rgbd_graphslam/geometry/ply.h"
 #include "rgbd_graphslam/mapping/grid_builder.h"
 #include "rgbd_graphslam/mapping/octree_builder.h"
 #include "rgbd_graphslam/mapping/point_fusion.h"
+#include "rgbd_graphslam/mapping/tsdf_volume.h"
 
 namespace rgbd_graphslam {
 
@@ -40,7 +40,7 @@ class DenseMapper {
 
     /** Whether options ask for a mesh. */
     bool hasMesh() const { return mesh_volume_ != nullptr; }
-    /** Triangles with colours and normals, without those in free space when so set. \throws Error
+    /** Triangles with colors and normals, without those in free space when so set. \throws Error
      * without hasMesh() */
     PlyModel mesh() const;
 
@@ -69,7 +69,7 @@ class DenseMapper {
     PointFusion points_;
     OccupancyVolume octree_volume_;
     std::unique_ptr<OccupancyVolume> grid_volume_;  // only when its resolution differs
-    std::unique_ptr<DistanceVolume> mesh_volume_;   // only when asked for
+    std::unique_ptr<TsdfVolume> mesh_volume_;       // only when asked for
     int keyframes_ = 0;
 };
 

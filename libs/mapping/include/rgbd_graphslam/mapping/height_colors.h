@@ -1,4 +1,4 @@
-/** Colours that stand for heights. */
+/** Colors that stand for heights. */
 #pragma once
 #include <array>
 

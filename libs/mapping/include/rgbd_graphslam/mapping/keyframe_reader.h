@@ -24,8 +24,8 @@ struct RecordedCamera {
 
 struct Keyframe3D {
     std::size_t index;  // in the trajectory given
-    StampedPose pose;   // of the colour image
-    /** When the depth image was taken; the stamp of the colour image where the rawlog does not say.
+    StampedPose pose;   // of the color image
+    /** When the depth image was taken; the stamp of the color image where the rawlog does not say.
      */
     double depth_stamp_s;
     RgbdImage image;
@@ -53,7 +53,7 @@ SE3 depthPose(const StampedPose& keyframe, double depth_stamp_s, const Trajector
 /** Takes up the stamps of depth images if an entry of a rawlog tells them. */
 void noteDepthStamps(const mrpt::obs::CObservation& observation, DepthStamps& stamps);
 
-/** Of the depth image that belongs to a colour image. */
+/** Of the depth image that belongs to a color image. */
 double depthStamp(const DepthStamps& stamps, double color_stamp_s);
 
 }  // namespace rgbd_graphslam

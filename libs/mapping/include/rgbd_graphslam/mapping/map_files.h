@@ -25,7 +25,7 @@ void savePly(const std::string& path, const PointMap& points);
 /** Binary PCD 0.7 with fields x y z rgb, as PCL's PointXYZRGB. */
 void savePcd(const std::string& path, const PointMap& points);
 
-/** MRPT CSimplePointsMap, the class that mrpt_map_server takes; without colour. */
+/** MRPT CSimplePointsMap, the class that mrpt_map_server takes; without color. */
 void saveMetricMap(const std::string& path, const PointMap& points);
 
 /** Any object of MRPT in its gzip-compressed form: `.gridmap.gz`, `.simplemap`, `.3Dscene`. */
@@ -34,18 +34,18 @@ void saveMrptObject(const std::string& path, const mrpt::serialization::CSeriali
 /** OctoMap's `.bt`: occupied, free or unknown. */
 void saveBinaryOcTree(const std::string& path, const octomap::OcTree& tree);
 
-/** OctoMap's `.ot`: log-odds and colour. */
+/** OctoMap's `.ot`: log-odds and color. */
 void saveColorOcTree(const std::string& path, const octomap::ColorOcTree& tree);
 
 /** Reads a `.bt`. The file is proven whole before OctoMap, which would trust it, sees it.
  *  \throws Error when the file is missing, another format, cut off or damaged */
 std::unique_ptr<octomap::OcTree> loadBinaryOcTree(const std::string& path);
 
-/** Reads a coloured `.ot`. \throws Error as loadBinaryOcTree does */
+/** Reads a colored `.ot`. \throws Error as loadBinaryOcTree does */
 std::unique_ptr<octomap::ColorOcTree> loadColorOcTree(const std::string& path);
 
-/** Reads the coloured points of a PLY, as readPly does.
- *  \throws Error as readPly does, or when there are no colours */
+/** Reads the colored points of a PLY, as readPly does.
+ *  \throws Error as readPly does, or when there are no colors */
 PointMap loadPly(const std::string& path);
 
 /** ROS's map_server pair: an 8-bit PNG (occupied 0, free 254, unknown 205) and the YAML that says

@@ -24,7 +24,7 @@ struct MapInputs {
     std::string rawlog;        // where the images are
     std::string sensor_label;  // of their camera; empty = that of the first frame
     Trajectory keyframes;      // the maps are made of these; in order of time within a session
-    /** Every frame; places depth images between colour stamps, and accelerometer readings. */
+    /** Every frame; places depth images between color stamps, and accelerometer readings. */
     Trajectory trajectory;
     /** Stamps of the frames that have no pose, rising; paths are not drawn across them. */
     std::vector<double> unplaced_s;
@@ -34,7 +34,7 @@ struct MapInputs {
     /** Where the first keyframes come from; the rest is of `rawlog`. */
     std::vector<EarlierSession> earlier;
     /** Keyframes, by rising index, whose place relative to the others is unknown. */
-    std::vector<int> apart;
+    std::vector<int> disconnected;
 };
 
 /** How many keyframes each earlier session has: paths are not drawn from one to the next. */
@@ -43,8 +43,8 @@ std::vector<std::size_t> sessionLengths(const MapInputs& inputs);
 /** \throws Error when there is no keyframe, or something names one that is not there */
 void checkInputs(const MapInputs& inputs);
 
-/** The inputs without the keyframes that are apart, the others counted anew. */
-MapInputs withoutApart(const MapInputs& inputs);
+/** The inputs without the disconnected keyframes, the others counted anew. */
+MapInputs withoutDisconnected(const MapInputs& inputs);
 
 /** All poses of the inputs in the frame a of T_a_world. */
 MapInputs transformed(const SE3& T_a_world, MapInputs inputs);

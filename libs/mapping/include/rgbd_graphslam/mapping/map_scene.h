@@ -18,7 +18,7 @@ inline constexpr const char* loop_inliers = "loop inliers";
 inline constexpr const char* graph_before_loops = "graph before loops";
 }  // namespace scene_names
 
-/** Coloured points, floor grid, trajectory, keyframes as view frustums, loop edges with the
+/** Colored points, floor grid, trajectory, keyframes as view frustums, loop edges with the
  * number of their inliers, and the graph as it was before loops. \param inputs upright \param
  * camera gives the frustums their shape */
 mrpt::opengl::COpenGLScene makeScene(const MapInputs& inputs, const PointMap& points,

@@ -49,7 +49,7 @@ class OccupancyVolume {
     /** Makes unknown again what is occupied by noise alone: voxels with readings in them which the
      *  surface, as all views together show it, does not run through. To be called when all views
      * are in. */
-    void dropSpill();
+    void removeNoiseVoxels();
 
     /** In steps; nothing where unknown. */
     std::optional<int> logOdds(const VoxelIndex& voxel) const;

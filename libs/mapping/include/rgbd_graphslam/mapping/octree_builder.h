@@ -21,8 +21,8 @@ enum class LeafValues {
 /** Pruned, inner nodes up to date. Space never seen has no node. */
 std::unique_ptr<octomap::OcTree> toOcTree(const OccupancyVolume& volume, LeafValues values);
 
-/** As toOcTree with exact values, and with the mean colour of what was seen in each occupied leaf.
- *  Occupied leaves are never merged, so that each keeps its colour. */
+/** As toOcTree with exact values, and with the mean color of what was seen in each occupied leaf.
+ *  Occupied leaves are never merged, so that each keeps its color. */
 std::unique_ptr<octomap::ColorOcTree> toColorOcTree(const OccupancyVolume& volume);
 
 }  // namespace rgbd_graphslam

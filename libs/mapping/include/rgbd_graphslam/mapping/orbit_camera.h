@@ -29,7 +29,7 @@ class OrbitCamera {
     /** From straight above, +y up in the picture. */
     void lookDown();
     /** Moves back until the box fits into the view, whatever its shape.
-     *  \param share of the view's width and height, round its centre, that may be used */
+     *  \param share of the view's width and height, round its center, that may be used */
     void frame(const Eigen::AlignedBox3d& box, const Eigen::Vector2i& size_px,
                const Eigen::Vector2d& share = {1, 1});
 
@@ -46,7 +46,7 @@ class OrbitCamera {
     /** World point at a pixel. \param depth as OpenGL's depth buffer holds it, 0 to 1 */
     Eigen::Vector3d unproject(const Eigen::Vector2d& pixel, double depth,
                               const Eigen::Vector2i& size_px) const;
-    /** Pixels per radian at the centre of the view. */
+    /** Pixels per radian at the center of the view. */
     static double focalPx(int height_px);
 
   private:

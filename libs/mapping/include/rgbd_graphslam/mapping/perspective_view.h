@@ -8,10 +8,10 @@
 namespace rgbd_graphslam {
 
 /** Looks down at the map from one of its longer sides, without what is above people's heads: points
- *  in their colours, floor lines with distances, trajectory, some keyframes, loops and a scale bar,
+ *  in their colors, floor lines with distances, trajectory, some keyframes, loops and a scale bar,
  *  which holds for the middle of the map.
  *  \param inputs upright
- *  \param spacing_m between neighbouring points
+ *  \param spacing_m between neighboring points
  *  \return CV_8UC3, BGR */
 cv::Mat3b perspectiveView(const MapInputs& inputs, const PointMap& points, double spacing_m,
                           const cv::Size& size_px = {1200, 760});

@@ -1,4 +1,4 @@
-/** Coloured points from many views. */
+/** Colored points from many views. */
 #pragma once
 #include <Eigen/Core>
 #include <array>

@@ -16,8 +16,8 @@ namespace rgbd_graphslam {
  *  \throws Error when a file is missing or makes no sense, or the run has no map of its own */
 MapInputs readRunFolder(const std::string& folder, const std::string& rawlog);
 
-/** A run that was localised in the map of another. */
-struct LocalisedRun {
+/** A run that was localized in the map of another. */
+struct LocalizedRun {
     std::string map_folder;
     Trajectory trajectory;
     /** Stamps of frames without a pose, rising. */
@@ -26,7 +26,7 @@ struct LocalisedRun {
 
 /** \return nothing when the folder is not that of such a run
  *  \throws Error when a file makes no sense, or the folder of the map is gone */
-std::optional<LocalisedRun> readLocalisedRun(const std::string& folder);
+std::optional<LocalizedRun> readLocalizedRun(const std::string& folder);
 
 /** Whether the run's warnings tell that its z axis is a guess. */
 bool upIsGuessed(const std::string& folder);

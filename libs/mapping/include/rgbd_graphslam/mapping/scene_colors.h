@@ -1,4 +1,4 @@
-/** Colours of what is drawn in pictures of a map, the same in all of them. */
+/** Colors of what is drawn in pictures of a map, the same in all of them. */
 #pragma once
 #include <array>
 #include <cstdint>

@@ -19,7 +19,7 @@ struct Plane {
 };
 
 /** Tells voxels that hold surface from those beside them that noise spilled into: a single reading
- *  errs by centimetres, the plane through what all views read about a place does not. */
+ *  errs by centimeters, the plane through what all views read about a place does not. */
 class SurfacePlanes {
   public:
     /** \param cells of half a voxel's edge; must outlive this */
@@ -27,7 +27,7 @@ class SurfacePlanes {
 
     /** Whether the surface runs through a voxel with readings in it: whether the plane does that
      *  moving least squares (Levin, "Mesh-independent surface interpolation", 2003) fit to the
-     *  cells around, in the smallest neighbourhood where readings lie flat and are enough. Where
+     *  cells around, in the smallest neighborhood where readings lie flat and are enough. Where
      *  none is flat, as on thin and small things and at corners, it does if the voxel's own
      *  readings tell their mean to half a voxel. */
     bool cross(const VoxelIndex& voxel) const;

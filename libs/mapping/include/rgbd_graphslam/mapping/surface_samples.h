@@ -30,7 +30,7 @@ class SurfaceSampler {
   public:
     SurfaceSampler(const DepthView& view, const SE3& T_world_cam, double voxel_m, int step = 1);
 
-    /** Calls consume(voxel, sample) for each run of neighbouring readings of a row that fall into
+    /** Calls consume(voxel, sample) for each run of neighboring readings of a row that fall into
      * one voxel: far fewer calls than readings, for voxels larger than a pixel. A reading weighs 1
      * / sigma_z(z)^2, with sigma_z in units of its value at 1 m: that is how far it can be trusted.
      */

@@ -28,7 +28,7 @@ std::optional<Eigen::Vector3d> upFromAccelerometer(const std::vector<SpecificFor
                                                    const Trajectory& trajectory);
 
 /** Patches on a lattice over a depth image, in the camera's axes. Needs rays without strong lens
- *  distortion only in so far as neighbours are neighbours.
+ *  distortion only in so far as neighbors are neighbors.
  *  \param depth m, 0 = none; readings beyond max_range_m are left out */
 std::vector<SurfacePatch> surfacePatches(const cv::Mat1f& depth, const RayTable& rays,
                                          double max_range_m);

@@ -33,7 +33,7 @@ inline VoxelIndex voxelOfKey(std::uint64_t key) {
 }
 
 /** Two levels: cubes of 4 x 4 x 4 voxels in a hash table with linear probing, cells within. Images
- *  ask for neighbours one after the other, which then mostly share a cube. Entries stay in order of
+ *  ask for neighbors one after the other, which then mostly share a cube. Entries stay in order of
  *  insertion, so that everything made from them is the same each run. References stay
  * valid until clear(). */
 template <class Cell>
@@ -44,7 +44,7 @@ class VoxelTable {
         Cell cell;
     };
 
-    /** The cell of a key; a new one is value-initialised. */
+    /** The cell of a key; a new one is value-initialized. */
     Cell& operator[](std::uint64_t key) {
         Cube& home = cube(key);
         std::uint32_t& number = home.number[within(key)];

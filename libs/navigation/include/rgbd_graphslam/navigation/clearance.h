@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "rgbd_graphslam/evaluation/ply.h"
+#include "rgbd_graphslam/geometry/ply.h"
 #include "rgbd_graphslam/geometry/se3.h"
 #include "rgbd_graphslam/navigation/robot_body.h"
 
@@ -25,7 +25,7 @@ class TrueObstacles {
     struct Slab {
         std::vector<Eigen::Vector2d> outline;
         double radius_m;                      // of the outline
-        std::vector<Eigen::Vector2f> points;  // one a square centimetre
+        std::vector<Eigen::Vector2f> points;  // one a square centimeter
     };
     std::vector<Slab> slabs_;
 };

@@ -12,7 +12,7 @@ namespace rgbd_graphslam {
  *  \param clearances_m one a pose, or none */
 std::string pathCsv(const Drive& drive, const std::vector<double>& clearances_m);
 
-/** The grid (free light, unknown grey, occupied dark) with the obstacles' colours, the route
+/** The grid (free light, unknown gray, occupied dark) with the obstacles' colors, the route
  *  (dotted, blue), the planned motion (green), the driven path (orange) and the body at its start
  *  and end. North is +y. */
 cv::Mat3b drivePicture(const NavigationMap& map, const Route& route,

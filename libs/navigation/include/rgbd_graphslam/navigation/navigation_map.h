@@ -14,7 +14,7 @@ namespace rgbd_graphslam {
 /** In the frame of the run: z up, floor at z = 0. */
 struct NavigationMap {
     mrpt::maps::COccupancyGridMap2D grid;
-    PointMap obstacles;  // coloured, above the floor, thinned out to one a voxel
+    PointMap obstacles;  // colored, above the floor, thinned out to one a voxel
     /** Cells where free space ends, at obstacles and at what was never seen. */
     std::vector<mrpt::math::TPoint2D> borders;
 };
@@ -28,7 +28,7 @@ mrpt::maps::COccupancyGridMap2D loadGrid(const std::string& path);
 NavigationMap loadNavigationMap(const std::string& run_folder, const DriveOptions& options,
                                 double height_m);
 
-/** Cells that are not free beside one that is, by their centres. */
+/** Cells that are not free beside one that is, by their centers. */
 std::vector<mrpt::math::TPoint2D> bordersOf(const mrpt::maps::COccupancyGridMap2D& grid);
 
 /** \throws Error naming the nearest place that would do, when a disc at (x, y) is not wholly over

@@ -11,7 +11,7 @@ class KeyframeSheet {
   public:
     /** \param keyframe its number
      *  \param seconds since the first frame
-     *  \param picture CV_8UC3 (BGR) or CV_8UC1 (grey) */
+     *  \param picture CV_8UC3 (BGR) or CV_8UC1 (gray) */
     void add(int keyframe, double seconds, const cv::Mat& picture);
 
     /** Rows of pictures with number and time in each; empty when none was added. */

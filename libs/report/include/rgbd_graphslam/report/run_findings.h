@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "rgbd_graphslam/evaluation/ate.h"
+#include "rgbd_graphslam/metrics/ate.h"
 #include "rgbd_graphslam/report/run_record.h"
 
 namespace rgbd_graphslam {
@@ -20,7 +20,7 @@ struct LostSpan {
     bool recovered = false;          // whether a frame after it has a pose
 };
 
-std::vector<LostSpan> lostSpans(const std::vector<FrameRecord>& frames);
+std::vector<LostSpan> lostSpans(const std::vector<ReportedFrame>& frames);
 
 /** By how much depths are too large (0.035 = 3.5 %; negative: too small), as the path against its
  *  truth shows it. Nothing when another scale would not explain at least a quarter of the squared

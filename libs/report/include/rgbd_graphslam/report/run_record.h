@@ -9,10 +9,10 @@
 
 namespace rgbd_graphslam {
 
-enum class FrameState { Tracked, Recovered, Weak, Uncertain, Lost };
+enum class FrameState { Tracked, Recovered, DeadReckoned, Uncertain, Lost };
 
 /** A line of frames.csv. */
-struct FrameRecord {
+struct ReportedFrame {
     double seconds = 0;  // since the first frame
     FrameState state = FrameState::Tracked;
     int inliers = 0;  // landmarks that agreed with the pose
@@ -61,7 +61,7 @@ struct RunRecord {
     double start_s = 0;  // stamp of the first frame
     /** As the run has told it, by the true poses nearest in time; nothing without truth. */
     std::optional<double> ate_rmse_m;
-    std::vector<FrameRecord> frames;
+    std::vector<ReportedFrame> frames;
     std::vector<StageRecord> stages;
     std::vector<LoopRecord> loops;
     QualityRecord quality;

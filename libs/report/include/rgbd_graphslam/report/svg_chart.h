@@ -10,14 +10,14 @@ namespace rgbd_graphslam {
 /** How charts look, in CSS: plain enough for programs that are no browser. */
 extern const char* const chart_style;
 
-/** A line with a name. Its class gives colour and dashes. */
+/** A line with a name. Its class gives color and dashes. */
 struct ChartLine {
     std::string name;
     std::string css_class;
     std::vector<Eigen::Vector2d> points;
 };
 
-/** Ground plan: x to the right and y up in metres, both with one scale; a grid tells the size.
+/** Ground plan: x to the right and y up in meters, both with one scale; a grid tells the size.
  * Lines of one point or none are left out. */
 std::string planChart(const std::vector<ChartLine>& lines);
 
@@ -30,7 +30,7 @@ std::string timeChart(const std::vector<ChartLine>& lines, const std::string& qu
 std::string svgFile(const std::string& chart);
 
 /** At most `most` points (at least 4) that keep the extremes of y: the lowest and the highest of
- *  equally many neighbours each, in order. */
+ *  equally many neighbors each, in order. */
 std::vector<Eigen::Vector2d> thinned(const std::vector<Eigen::Vector2d>& points, std::size_t most);
 
 /** The multiple of 1, 2 or 5 times a power of ten that divides `range` into about `parts`. */

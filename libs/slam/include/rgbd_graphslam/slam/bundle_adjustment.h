@@ -28,13 +28,13 @@ struct BundleSummary {
     int iterations = 0;
 };
 
-/** Half the Huber cost that adjustBundle minimises, over observations that are no outliers. */
+/** Half the Huber cost that adjustBundle minimizes, over observations that are no outliers. */
 double bundleCost(const BundleProblem& problem);
 
 /** Marks the observations beyond 95 % of chi-square, and unmarks the others. */
 void markBundleOutliers(BundleProblem& problem);
 
-/** Minimises the Huber cost of the whitened residuals by Levenberg-Marquardt with the points
+/** Minimizes the Huber cost of the whitened residuals by Levenberg-Marquardt with the points
  *  eliminated first (Schur complement; Triggs et al., "Bundle adjustment - a modern synthesis",
  *  2000). Half way, observations beyond 95 % of chi-square are marked as outliers and left out.
  *  Dense in the cameras: meant for tens of free ones.

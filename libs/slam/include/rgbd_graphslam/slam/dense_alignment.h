@@ -15,8 +15,8 @@ struct DenseAlignment {
 };
 
 /** Brings surfaces (point to plane, projective pairs; Newcombe et al., "KinectFusion", ISMAR 2011)
- *  and grey values (Kerl, Sturm and Cremers, "Robust odometry estimation for RGB-D cameras", ICRA
- *  2013) together by Gauss-Newton from coarse to fine. Grey values are compared after subtracting
+ *  and gray values (Kerl, Sturm and Cremers, "Robust odometry estimation for RGB-D cameras", ICRA
+ *  2013) together by Gauss-Newton from coarse to fine. Gray values are compared after subtracting
  *  mean and dividing by deviation, so that changing light does not matter, and only where both
  * views have contrast. \param initial T_reference_view to start from \return nothing when the views
  * share too little, do not fit, or leave a direction open, as a bare wall does */

@@ -4,7 +4,7 @@
 
 namespace rgbd_graphslam {
 
-/** Minimises the same cost as adjustBundle by Ceres' sparse Schur solver, single-threaded and
+/** Minimizes the same cost as adjustBundle by Ceres' sparse Schur solver, single-threaded and
  *  deterministic. Outliers are marked after half of the iterations. */
 BundleSummary adjustBundleSparse(BundleProblem& problem, int max_iterations,
                                  bool mark_outliers = true);

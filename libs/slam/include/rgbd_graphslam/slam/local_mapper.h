@@ -18,13 +18,13 @@ class LocalMapper {
     LocalMapper(const SlamOptions& options, const Camera& camera, SlamMap& map);
 
     /** Grows the map by a keyframe that was just added with its tracked landmarks, and starts the
-     *  adjustment. handOver() must have been called since the last time. */
+     *  adjustment. applyPendingAdjustment() must have been called since the last time. */
     void insert(int keyframe);
 
     bool pending() const { return pending_ != nullptr; }
     /** Waits for the adjustment and writes it into the map. Does nothing when none is pending.
      *  \return CPU ms that the adjustment took */
-    double handOver();
+    double applyPendingAdjustment();
 
     /** What coming keyframes depend on. */
     void save(ByteWriter& out) const;
@@ -40,8 +40,8 @@ class LocalMapper {
   private:
     void startAdjustment(int keyframe);
     void createFromDepth(int id);
-    void triangulateWithNeighbours(int id);
-    void joinWithNeighbours(int id);
+    void triangulateWithNeighbors(int id);
+    void joinWithNeighbors(int id);
     void join(int landmark, int keyframe, int keypoint);
     void cullLandmarks(int keyframe);
     void cullKeyframes(int id);
@@ -54,7 +54,7 @@ class LocalMapper {
     const Camera& camera_;
     SlamMap& map_;
     std::vector<int> recent_;  // landmarks still on probation
-    std::unique_ptr<AdjustmentAtWork> pending_;
+    std::unique_ptr<BackgroundBundleAdjustment> pending_;
     int adjusted_keyframe_ = 0;  // around which the pending adjustment is
 };
 

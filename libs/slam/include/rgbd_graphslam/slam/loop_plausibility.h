@@ -49,7 +49,7 @@ class LoopPlausibility {
      *  none when even that is more than the path explains. */
     std::optional<VerifiedLoop> likeliest(std::vector<VerifiedLoop> loops) const;
 
-    /** Whether the optimised map does as a loop asked. One that the robust graph left unheeded
+    /** Whether the optimized map does as a loop asked. One that the robust graph left unheeded
      *  contradicts all the others. */
     bool followed(const VerifiedLoop& loop) const;
 

@@ -46,13 +46,13 @@ class MapAdjustment {
 std::vector<int> landmarksSeenBy(const std::vector<int>& keyframes, const SlamMap& map);
 
 /** An adjustment that another thread solves. */
-class AdjustmentAtWork {
+class BackgroundBundleAdjustment {
   public:
     using Solve = std::function<void(BundleProblem&)>;
-    AdjustmentAtWork(MapAdjustment adjustment, const Solve& solve);
-    ~AdjustmentAtWork();
-    AdjustmentAtWork(const AdjustmentAtWork&) = delete;
-    AdjustmentAtWork& operator=(const AdjustmentAtWork&) = delete;
+    BackgroundBundleAdjustment(MapAdjustment adjustment, const Solve& solve);
+    ~BackgroundBundleAdjustment();
+    BackgroundBundleAdjustment(const BackgroundBundleAdjustment&) = delete;
+    BackgroundBundleAdjustment& operator=(const BackgroundBundleAdjustment&) = delete;
 
     /** \return CPU ms that it took */
     double wait();

@@ -23,7 +23,7 @@ class MatchTable {
     void reserve(int keypoint) { distance_[keypoint] = -1; }
 
     /** Looks for `point` and claims the best keypoint in the window for it, unless a second one
-     *  comes nearly as near (`ratio` of best to second distance on neighbouring levels).
+     *  comes nearly as near (`ratio` of best to second distance on neighboring levels).
      *  \param max_hamming farthest distance accepted */
     void search(int point, const Descriptor& descriptor, const SearchWindow& window,
                 int max_hamming, float ratio);
@@ -33,7 +33,7 @@ class MatchTable {
 
   private:
     const Frame& frame_;
-    std::vector<int> point_;     // one a keypoint, -1 = unclaimed
+    std::vector<int> point_;     // one per keypoint, -1 = unclaimed
     std::vector<int> distance_;  // of the claim; -1 = reserved
 };
 

@@ -30,13 +30,13 @@ struct PoseSolution {
  *  it where it is though a third of the matches, all together, moves otherwise. */
 enum class PoseKernel { Huber, GemanMcClure };
 
-/** Minimises the robust cost of the whitened residuals over the pose by Gauss-Newton with
- *  Levenberg's damping, drops the matches beyond 95 % of chi-square, and minimises the Huber cost
+/** Minimizes the robust cost of the whitened residuals over the pose by Gauss-Newton with
+ *  Levenberg's damping, drops the matches beyond 95 % of chi-square, and minimizes the Huber cost
  *  of the others.
  *
  *  \param initial T_cam_world to start from
  *
- *  \param kernel of the first minimisation */
+ *  \param kernel of the first minimization */
 PoseSolution solvePose(const Camera& camera, const std::vector<PointMatch>& matches,
                        const SE3& initial, PoseKernel kernel = PoseKernel::Huber);
 

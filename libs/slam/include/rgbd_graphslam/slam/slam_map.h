@@ -48,7 +48,7 @@ enum class Link : std::uint8_t {
     /** By landmarks that both see. */
     Tracked,
     /** By a weak measurement of motion. */
-    Weak,
+    DeadReckoned,
     /** Not at all: the camera was lost, the recording is another, or known views lie between. */
     None,
 };
@@ -57,14 +57,14 @@ struct Keyframe {
     int id = 0;
     Frame frame;
     SE3 T_cam_world;
-    /** One entry a keypoint: landmark or no_landmark. */
+    /** One entry per keypoint: landmark or no_landmark. */
     std::vector<int> landmarks;
     /** A culled keyframe keeps its place relative to the living keyframe `parent`. */
     bool culled = false;
     int parent = -1;
     SE3 T_cam_parent;
-    /** Keyframes of one part of the map have known poses to each other. */
-    int part = 0;
+    /** Keyframes of one submap have known poses to each other. */
+    int submap = 0;
     /** To the keyframe before, id - 1. */
     Link link = Link::Tracked;
 };
@@ -92,17 +92,17 @@ class SlamMap {
     void load(ByteReader& in, const Camera& camera);
 
     /** The frame's small image is dropped; its patches stay for addLandmark() until the next.
-     *  \param part of the map that it belongs to */
-    int addKeyframe(Frame frame, const SE3& T_cam_world, int part = 0, Link link = Link::Tracked);
-    /** Moves a part as a whole and makes it one with another.
+     *  \param submap of the map that it belongs to */
+    int addKeyframe(Frame frame, const SE3& T_cam_world, int submap = 0, Link link = Link::Tracked);
+    /** Moves a submap as a whole and makes it one with another.
      *  \param T_new_old maps its world coordinates to where they belong */
-    void joinPart(int part, int into, const SE3& T_new_old);
+    void mergeSubmap(int submap, int into, const SE3& T_new_old);
     /** Seen first by a keypoint that is free. */
     int addLandmark(const Eigen::Vector3d& position, int keyframe, int keypoint);
     /** The keypoint must be free and the landmark not yet seen by the keyframe. */
     void addObservation(int landmark, int keyframe, int keypoint);
-    /** What a frame was found to see becomes the keyframe's; landmarks that have died since are left
-     *  out. \param landmarks one entry a keypoint, no_landmark where none was found */
+    /** What a frame was found to see becomes the keyframe's; landmarks that have died since are
+     * left out. \param landmarks one entry per keypoint, no_landmark where none was found */
     void addObservations(const std::vector<int>& landmarks, int keyframe);
     /** A landmark that loses its last observation dies. */
     void removeObservation(int landmark, int keyframe);
@@ -113,7 +113,7 @@ class SlamMap {
      *  `parent`, which lives. */
     void cull(int keyframe, int parent);
     /** The keyframes that there are keep their poses from now on. */
-    void hold() { held_ = keyframes_.size(); }
+    void freeze() { fixed_ = keyframes_.size(); }
 
     const std::vector<Keyframe>& keyframes() const { return keyframes_; }
     const std::vector<Landmark>& landmarks() const { return landmarks_; }
@@ -122,9 +122,9 @@ class SlamMap {
     Landmark& landmark(int id) { return landmarks_[id]; }
     std::size_t aliveLandmarks() const { return alive_; }
     /** Number of keyframes, the first ones, that hold() named. */
-    int heldCount() const { return static_cast<int>(held_); }
+    int fixedCount() const { return static_cast<int>(fixed_); }
     /** Whether a keyframe keeps its pose: the first always does. */
-    bool held(int keyframe) const { return keyframe == 0 || keyframe < heldCount(); }
+    bool isFixed(int keyframe) const { return keyframe == 0 || keyframe < fixedCount(); }
     /** Keyframes that cull() took out, in that order. */
     const std::vector<int>& culled() const { return culled_; }
 
@@ -157,11 +157,11 @@ class SlamMap {
     std::vector<Keyframe> keyframes_;
     std::vector<Landmark> landmarks_;
     std::size_t alive_ = 0;
-    std::size_t held_ = 0;
+    std::size_t fixed_ = 0;
     /** Dead landmarks and the number of keyframes at their death. */
     std::deque<std::pair<int, std::size_t>> dead_;
     std::vector<int> culled_;
-    mutable std::vector<int> votes_;  // one a keyframe, all zero between calls
+    mutable std::vector<int> votes_;  // one per keyframe, all zero between calls
 };
 
 }  // namespace rgbd_graphslam

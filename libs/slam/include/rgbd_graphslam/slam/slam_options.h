@@ -12,7 +12,7 @@ namespace rgbd_graphslam {
 struct SensorOptions : Options {
     double keypoint_sigma_px = 0.8;
     double aligned_sigma_px = 0.4;
-    /** Larger close by than the sensor's own noise: registration and colour and depth taken at
+    /** Larger close by than the sensor's own noise: registration and color and depth taken at
      *  different moments displace depth too (doc/design-decisions.md). */
     DepthNoise depth_noise{0.005, 0.0019, 0.4};
 
@@ -54,10 +54,10 @@ struct MapperOptions : Options {
     int window_keyframes = 10;
     int max_fixed_keyframes = 10;
     int iterations = 6;
-    int hand_over_frames = 3;
+    int adjustment_delay_frames = 3;
     int loop_iterations = 5;
-    int loop_hand_over_frames = 60;
-    int localising_keyframes = 300;
+    int loop_adjustment_delay_frames = 60;
+    int localization_keyframes = 300;
     bool triangulate = true;
     bool local_adjustment = true;
     bool loop_adjustment = true;
@@ -83,9 +83,9 @@ struct LoopOptions : Options {
 };
 
 struct RecoveryOptions : Options {
-    bool weak_motion = true;
-    int weak_keyframe_after = 5;
-    int new_part_after = 20;
+    bool dead_reckoning = true;
+    int dead_reckoned_keyframe_after = 5;
+    int new_submap_after = 20;
     int fewest_keypoints = 100;
 
     const char* section() const override { return "RecoveryOptions"; }

@@ -25,14 +25,14 @@ enum class FrameOrigin {
     /** By landmarks, found anywhere in the map after the way was lost. */
     Recovered,
     /** By the motion since the last frame only: its points, whole images, odometry or gyroscope. */
-    Weak,
+    DeadReckoned,
     /** Not at all; the pose is the last one known. */
     Lost,
     /** Landmarks are seen, but too few or too far from what the motion allows to be believed. */
     Uncertain,
 };
 
-/** "tracked", "recovered", "weak", "lost" or "uncertain". */
+/** "tracked", "recovered", "dead_reckoned", "lost" or "uncertain". */
 const char* toString(FrameOrigin origin);
 
 /** The answer to one frame. */
@@ -49,7 +49,7 @@ struct TrackedFrame {
     int reference_keyframe = 0;
     SE3 T_reference_cam;
     /** Of the map, see KeyframeView::part. */
-    int part = 0;
+    int submap = 0;
     /** Set when the frame became a keyframe: its id, which counts from 0 without gaps. */
     std::optional<int> keyframe;
 };
@@ -58,7 +58,7 @@ struct TrackedFrame {
 enum class MapUse {
     /** The map's keyframes stay where they are; of the run's own only the latest are kept, so that
      *  memory stays flat. */
-    Localise,
+    Localize,
     /** Frames are located in it and add to it. */
     Extend,
 };
@@ -70,9 +70,9 @@ struct KeyframeView {
     SE3 T_world_cam;
     /** Dropped from the map because others see the same; its pose stays a node of the graph. */
     bool culled = false;
-    /** Where the camera was lost and met nothing known, a part begins whose place relative to the
+    /** Where the camera was lost and met nothing known, a submap begins whose place relative to the
      *  others is unknown until a loop joins them. */
-    int part = 0;
+    int submap = 0;
 };
 
 struct LandmarkView {
@@ -153,7 +153,7 @@ class VisualSlam {
 
     struct StageTime {
         std::string stage;
-        std::vector<double> cpu_ms, wall_ms;  // one a call
+        std::vector<double> cpu_ms, wall_ms;  // one per call
     };
     std::vector<StageTime> stageTimes() const;
 

@@ -5,7 +5,7 @@
 
 namespace rgbd_graphslam::synth {
 
-/** Writes a row of colour pictures, evenly spread over time, and the last one's depth for each
+/** Writes a row of color pictures, evenly spread over time, and the last one's depth for each
  *  sequence folder, with its name.
  *  \param path of the JPEG or PNG
  *  \throws Error when a folder holds no pictures */

@@ -14,7 +14,7 @@ struct Opening {
     double height_m = 2.1;
 };
 
-/** Ground plan of a room, metres. */
+/** Ground plan of a room, meters. */
 struct Floor {
     double min_x = 0, max_x = 1, min_y = 0, max_y = 1;
     double height = 2.7;
@@ -71,7 +71,7 @@ class Furnisher {
     void bookPile(const SE3& frame, int count);
     void papers(const SE3& frame, int count);
     void package(const SE3& frame);
-    /** Small things scattered over a rectangle centred on the frame. */
+    /** Small things scattered over a rectangle centerd on the frame. */
     void clutter(const SE3& frame, double length, double width, int count);
 
     /** Appends the figures of a person: the trunk with its head, standing at its origin, and two

@@ -13,7 +13,7 @@ class Lighting {
     explicit Lighting(const Scene& scene);
 
     /** \param normal unit vector away from the surface
-     *  \return blue, green, red factors of the surface's colour, 1 = as painted */
+     *  \return blue, green, red factors of the surface's color, 1 = as painted */
     Eigen::Vector3d at(const Eigen::Vector3d& point, const Eigen::Vector3d& normal) const;
 
   private:

@@ -9,7 +9,7 @@
 
 namespace rgbd_graphslam::synth {
 
-/** Brightness of the colour camera at a time. */
+/** Brightness of the color camera at a time. */
 struct Exposure {
     double brightness = 1;     // of the picture
     double gain = 1;           // of the amplifier, which multiplies the noise

@@ -1,4 +1,4 @@
-/** What there is to be seen: textured quadrilaterals, in metres, z up, floor at z = 0. */
+/** What there is to be seen: textured quadrilaterals, in meters, z up, floor at z = 0. */
 #pragma once
 #include <Eigen/Core>
 #include <array>
@@ -73,7 +73,7 @@ struct Scene {
 void addRectangle(const Scene& scene, std::vector<Quad>& quads, const SE3& frame, double width,
                   double height, const Skin& skin);
 
-/** Appends a box standing on z = 0 of `frame`, centred in x and y. \param size (m) along x, y, z */
+/** Appends a box standing on z = 0 of `frame`, centerd in x and y. \param size (m) along x, y, z */
 void addBox(const Scene& scene, std::vector<Quad>& quads, const SE3& frame,
             const Eigen::Vector3d& size, const BoxSkin& skin);
 

@@ -24,14 +24,14 @@ struct DepthSensorModel {
 
 /** \param depth CV_32FC1, true depth (m), 0 = none
  *  \return CV_32FC1, readings (m), 0 = none. Away from edges their deviation is noise.sigma(z),
- *          quantisation included. */
+ *          quantization included. */
 cv::Mat senseDepth(const cv::Mat& depth, const Camera& camera, const DepthSensorModel& model,
                    Random random);
 
 /** \return CV_16UC1 in units of 1/5000 m, 0 = none; too far for the format is none */
 cv::Mat toDepthUnits(const cv::Mat& depth_m);
 
-/** Signal-dependent and read-out noise, grey levels of 255. */
+/** Signal-dependent and read-out noise, gray levels of 255. */
 struct ColorSensorModel {
     double read_noise = 1.1;
     double shot_noise = 0.13;  // deviation at level I is shot_noise * sqrt(I)

@@ -10,7 +10,7 @@ namespace rgbd_graphslam::synth {
 struct FilmOptions {
     int frames = 0;  // 0: the scenario's own number
     std::uint64_t seed = 1;
-    /** false: exact depth, no colour noise, no blur, colour and depth at the same instants. */
+    /** false: exact depth, no color noise, no blur, color and depth at the same instants. */
     bool noise = true;
     int width = 640, height = 480;
     /** Depth pictures are shifted by this along x, as by a wrong calibration. */

@@ -9,7 +9,7 @@ namespace rgbd_graphslam::synth {
 
 using Bgr = cv::Scalar;
 
-/** A strong colour of printed matter, or a quiet one of furniture and clothes. */
+/** A strong color of printed matter, or a quiet one of furniture and clothes. */
 Bgr vividColor(Random& random);
 Bgr quietColor(Random& random);
 

@@ -14,7 +14,7 @@ inline constexpr std::size_t points_a_keyframe = 8192;
 
 inline constexpr double farthest_painted_m = 6;
 
-/** Coloured points of an evenly thinned depth image, in the camera's optical frame and
+/** Colored points of an evenly thinned depth image, in the camera's optical frame and
  *  in random order.
  *  \param color CV_8UC3 (BGR)
  *  \param depth CV_16UC1 of the same size
@@ -24,7 +24,7 @@ Vertices keyframePoints(const cv::Mat& color, const cv::Mat& depth, double depth
 
 Vertices transformed(const SE3& T_world_cam, const Vertices& points);
 
-/** Depth as colours, near red to far blue, black where there is none (BGR).
+/** Depth as colors, near red to far blue, black where there is none (BGR).
  *  \param depth CV_16UC1
  *  \param farthest_m is blue, as is all beyond */
 cv::Mat3b paintedDepth(const cv::Mat& depth, double depth_unit_m,

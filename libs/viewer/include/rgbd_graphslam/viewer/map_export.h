@@ -28,7 +28,7 @@ void exportPoints(const Vertices& points, ExportFormat format, const std::string
  *  \throws Error when the run has none, nothing of it is left, or the file cannot be written */
 void exportMesh(const std::string& folder, double highest_m, const std::string& path);
 
-/** The octree of a run without the leaves whose centres are higher than `highest_m`.
+/** The octree of a run without the leaves whose centers are higher than `highest_m`.
  *  \param folder of the run
  *  \param format ColorOctree or BinaryOctree
  *  \throws Error when the run has none, or the file cannot be written */

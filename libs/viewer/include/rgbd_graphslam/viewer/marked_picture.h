@@ -17,7 +17,7 @@ struct PictureMark {
  *  processor paints it: a thousand marks would take nanovg long without a graphics card.
  *  \param image BGR, not empty
  *  \param size_px of the result
- *  \param margin colour of what the image leaves free
+ *  \param margin color of what the image leaves free
  *  \return RGBA */
 cv::Mat4b fittedPicture(const cv::Mat3b& image, const std::vector<PictureMark>& marks,
                         const cv::Size& size_px, const Rgba& margin);

@@ -7,7 +7,7 @@
 
 namespace rgbd_graphslam {
 
-/** Neighbouring points in random order, so that the first n of them are an even thinning of all. */
+/** Neighboring points in random order, so that the first n of them are an even thinning of all. */
 struct PointChunk {
     std::size_t first = 0, count = 0;  // in ChunkedPoints::points
     Eigen::Vector3d center = Eigen::Vector3d::Zero();

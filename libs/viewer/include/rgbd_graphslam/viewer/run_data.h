@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "rgbd_graphslam/evaluation/ply.h"
+#include "rgbd_graphslam/geometry/ply.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 #include "rgbd_graphslam/mapping/point_fusion.h"
 #include "rgbd_graphslam/viewer/vertex.h"
@@ -68,7 +68,7 @@ struct RunData {
 };
 
 /** Reads what is there; only the trajectory must be. Maps that are missing stay empty, damaged ones
- *  are named in a warning. A run that was localised comes with the map that it was localised in.
+ *  are named in a warning. A run that was localized comes with the map that it was localized in.
  *  \param path output folder of rgbd-slam, or a `.ply`
  *  \throws Error when there is no run */
 RunData loadRun(const std::string& path);

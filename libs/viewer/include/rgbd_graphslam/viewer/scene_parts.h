@@ -42,7 +42,7 @@ Vertices gridTriangles(const GridMap& grid);
 Vertices pointVertices(const PointMap& points);
 
 /** Vertices of a mesh, with the light that falls on them as alpha: from above and a little aside,
- *  mild enough to leave the colours as they are. Grey where the mesh has no colours. */
+ *  mild enough to leave the colors as they are. Gray where the mesh has no colors. */
 Vertices meshVertices(const PlyModel& mesh);
 
 /** A mesh to be drawn fast, of the same vertices: of those in a cube one stands for all, which

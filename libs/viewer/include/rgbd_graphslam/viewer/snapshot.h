@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "rgbd_graphslam/evaluation/ply.h"
+#include "rgbd_graphslam/geometry/ply.h"
 
 namespace rgbd_graphslam {
 

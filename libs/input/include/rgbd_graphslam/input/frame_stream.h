@@ -1,0 +1,88 @@
+/** Frames of a rawlog, read and prepared ahead of tracking. */
+#pragma once
+#include <mrpt/obs/CObservation3DRangeScan.h>
+
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/features/frame.h"
+#include "rgbd_graphslam/geometry/rgbd_image.h"
+#include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/input/sensor_census.h"
+#include "rgbd_graphslam/job/run_options.h"
+#include "rgbd_graphslam/slam/stage_times.h"
+
+namespace rgbd_graphslam {
+
+struct StreamedFrame {
+    /** All else that the rawlog holds between the frame before and this one. */
+    std::vector<mrpt::obs::CObservation::Ptr> before;
+    /** Counts the RGB-D frames of the rawlog from 0. */
+    std::size_t index = 0;
+    mrpt::obs::CObservation3DRangeScan::Ptr observation;
+    Frame prepared;
+    /** Goes into the prepared frame. */
+    DeadReckoning reckoning;
+};
+
+/** Gives the RGB-D frames of a rawlog in file order, whatever the number of threads. With one
+ *  thread all happens in next(); else the others read and prepare up to `frames_ahead` frames, and
+ *  wait when these are not fetched. */
+class FrameStream {
+  public:
+    using Prepare = std::function<Frame(const RgbdImage&)>;
+
+    /** Reads up to the first RGB-D frame.
+     *  \param sensor_label of the camera to take; empty = the one whose frame comes first
+     *  \throws Error when the file is no rawlog or has no RGB-D frame of that camera */
+    FrameStream(const std::string& rawlog, const RunOptions& options,
+                const std::string& sensor_label = {});
+    ~FrameStream();
+    FrameStream(const FrameStream&) = delete;
+    FrameStream& operator=(const FrameStream&) = delete;
+
+    const mrpt::obs::CObservation3DRangeScan& firstFrame() const;
+
+    /** Reads the next frames, or as many as there are, which next() hands out all the same; only
+     *  before start(). Damage in them is next()'s to tell.
+     *  \return their observations */
+    std::vector<mrpt::obs::CObservation3DRangeScan::Ptr> lookAhead(std::size_t frames);
+
+    /** Reads over a frame; only before start(). \return it, not prepared, or nothing at the end
+     *  \throws Error as next() */
+    std::optional<StreamedFrame> skip();
+
+    /** \param prepare thread-safe */
+    void start(Prepare prepare);
+
+    /** The next frame; nothing at the end.
+     *  \throws Error naming the frame where the rawlog is cut off or damaged, or a frame has no
+     *          usable images; there is nothing after it */
+    std::optional<StreamedFrame> next();
+
+    /** Waits until no frame is being prepared and ends reading ahead: what `prepare` uses may go.
+     */
+    void stop();
+
+    /** Number of frames in the whole rawlog, estimated from what is read. */
+    std::size_t expectedFrames() const;
+
+    /** Ground truth read so far, robot poses in the truth's world. */
+    Trajectory truth() const;
+
+    /** All that the rawlog holds as far as it is read. */
+    std::vector<SensorRecord> sensors() const;
+
+    /** "read" and "decode". */
+    const StageTimes& times() const;
+
+  private:
+    class Implementation;
+    std::unique_ptr<Implementation> impl_;
+};
+
+}  // namespace rgbd_graphslam

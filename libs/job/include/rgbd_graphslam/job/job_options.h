@@ -1,0 +1,27 @@
+/** Every setting of rgbd-slam. */
+#pragma once
+#include <string>
+#include <vector>
+
+#include "rgbd_graphslam/job/run_options.h"
+#include "rgbd_graphslam/mapping/map_options.h"
+#include "rgbd_graphslam/slam/slam_options.h"
+
+namespace rgbd_graphslam {
+
+struct JobOptions {
+    RunOptions run;
+    SlamOptions slam;
+    MapOptions maps;
+
+    /** For IniFile::load and toIniText. */
+    std::vector<Options*> all();
+};
+
+/** The present settings as a commented ini file. */
+std::string configText(JobOptions options);
+
+/** Sixteen hexadecimal digits that differ where the settings do (FNV-1a of their text). */
+std::string configHash(const JobOptions& options);
+
+}  // namespace rgbd_graphslam

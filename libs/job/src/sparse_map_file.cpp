@@ -1,0 +1,75 @@
+#include "rgbd_graphslam/job/sparse_map_file.h"
+
+#include "rgbd_graphslam/slam/map_encoding.h"
+#include "sealed_file.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+const FileKind map_file{"RGBDMAP\n",
+                        2,
+                        "map",
+                        "give the output folder of a run of rgbd-slam",
+                        "give a map.sparse",
+                        "copy it again or make it again"};
+
+SparseMap decode(ByteReader& in) {
+    SparseMap map;
+    map.config_hash = in.getText();
+    map.T_up_world = decodePose(in);
+    map.sessions = decodeSessions(in);
+    map.snapshot = decodeSnapshot(in);
+    requireInOrder(map.sessions, map.snapshot.keyframes.size());
+    return map;
+}
+
+}  // namespace
+
+void encode(const std::vector<MapSession>& sessions, ByteWriter& out) {
+    out.putCount(sessions.size());
+    for (const MapSession& session : sessions) {
+        out.putText(session.rawlog);
+        out.put<std::int32_t>(session.first_keyframe);
+    }
+}
+
+std::vector<MapSession> decodeSessions(ByteReader& in) {
+    std::vector<MapSession> sessions(in.getCount(2 * sizeof(std::uint32_t)));
+    for (MapSession& session : sessions) {
+        session.rawlog = in.getText();
+        session.first_keyframe = in.get<std::int32_t>();
+    }
+    return sessions;
+}
+
+void requireInOrder(const std::vector<MapSession>& sessions, std::size_t keyframes) {
+    int earliest = 0;
+    for (const MapSession& session : sessions) {
+        if (session.first_keyframe < earliest) throw DamagedBytes("sessions that are not in order");
+        earliest = session.first_keyframe;
+    }
+    if (earliest > static_cast<std::int64_t>(keyframes)) {
+        throw DamagedBytes("a session that begins after the last keyframe");
+    }
+}
+
+void writeSparseMap(const std::string& path, const SparseMap& map) {
+    ByteWriter payload;
+    payload.putText(map.config_hash);
+    encodePose(map.T_up_world, payload);
+    encode(map.sessions, payload);
+    encode(map.snapshot, payload);
+    writeSealed(path, map_file, payload.bytes());
+}
+
+SparseMap readSparseMap(const std::string& path) {
+    const std::string payload = readSealed(path, map_file);
+    try {
+        ByteReader in(payload);
+        return decode(in);
+    } catch (const DamagedBytes& e) {
+        throw damaged(path, map_file, e);
+    }
+}
+
+}  // namespace rgbd_graphslam

@@ -1,0 +1,249 @@
+#include "rgbd_graphslam/input/frame_stream.h"
+
+#include <gtest/gtest.h>
+#include <mrpt/obs/CObservationIMU.h>
+#include <mrpt/obs/CObservationOdometry.h>
+
+#include <atomic>
+#include <chrono>
+#include <thread>
+
+#include "../../support/textured_room.h"
+#include "../../support/tum_folder.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/rawlog_writer.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr int frames = 12;
+
+RunOptions withThreads(int threads) {
+    RunOptions options;
+    options.threads = threads;
+    options.frames_ahead = 3;
+    return options;
+}
+
+class StreamOfARawlog : public testing::TestWithParam<int> {
+  protected:
+    StreamOfARawlog() : rawlog_(folder_ / "a.rawlog") {
+        write([](RawlogWriter& writer) {
+            for (const auto& frame : filmRoundTrip(frames, 0.02)) {
+                writer.write(*frame);
+                mrpt::obs::CObservationIMU imu;
+                writer.write(imu);
+            }
+        });
+    }
+    void write(const std::function<void(RawlogWriter&)>& fill) const {
+        writeRawlog(rawlog_, RawlogStorage::Embedded, fill);
+    }
+    /** Later frames are ready sooner. */
+    static Frame slowAtFirst(const RgbdImage& image) {
+        const double age_s = image.stamp_s - room_start_s;
+        std::this_thread::sleep_for(std::chrono::duration<double>(0.01 / (1 + 30 * age_s)));
+        Frame frame;
+        frame.stamp_s = image.stamp_s;
+        return frame;
+    }
+
+    TestFolder folder_;
+    std::string rawlog_;
+};
+
+TEST_P(StreamOfARawlog, keepsTheOrderOfTheFile) {
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    for (int i = 0; i < frames; ++i) {
+        const auto frame = stream.next();
+        ASSERT_TRUE(frame);
+        EXPECT_EQ(frame->index, static_cast<std::size_t>(i));
+        EXPECT_NEAR(frame->prepared.stamp_s, room_start_s + i * room_period_s, 1e-5);
+    }
+    EXPECT_FALSE(stream.next());
+    EXPECT_EQ(stream.expectedFrames(), static_cast<std::size_t>(frames));
+}
+
+TEST_P(StreamOfARawlog, readsNoFurtherAheadThanTold) {
+    std::atomic<int> prepared{0};
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start([&](const RgbdImage& image) {
+        ++prepared;
+        return slowAtFirst(image);
+    });
+    stream.next();
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    EXPECT_LE(prepared, 1 + 3);  // fetched and frames_ahead
+}
+
+TEST_P(StreamOfARawlog, canBeLeftInTheMiddle) {
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    EXPECT_TRUE(stream.next());
+}
+
+TEST_P(StreamOfARawlog, preparesNothingOnceStopped) {
+    std::atomic<bool> stopped{false};
+    std::atomic<int> too_late{0};
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start([&](const RgbdImage& image) {
+        Frame frame = slowAtFirst(image);
+        if (stopped) ++too_late;
+        return frame;
+    });
+    ASSERT_TRUE(stream.next());
+    stream.stop();
+    stopped = true;
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    EXPECT_EQ(too_late, 0);
+}
+
+TEST_P(StreamOfARawlog, handsOutWhatComesBeforeTheCut) {
+    cutFile(rawlog_, 0.6);
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    int handed_out = 0;
+    const auto drain = [&] {
+        while (stream.next()) ++handed_out;
+    };
+    EXPECT_THROW(drain(), Error);
+    EXPECT_EQ(handed_out, 7);
+}
+
+TEST_P(StreamOfARawlog, frameWithoutDepthIsNamed) {
+    write([](RawlogWriter& writer) {
+        auto film = filmRoundTrip(3, 0.02);
+        film[1]->hasRangeImage = false;
+        for (const auto& frame : film) writer.write(*frame);
+    });
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    EXPECT_TRUE(stream.next());
+    try {
+        stream.next();
+        FAIL();
+    } catch (const Error& e) {
+        EXPECT_NE(std::string(e.what()).find("1700000000.033333"), std::string::npos) << e.what();
+    }
+}
+
+TEST_P(StreamOfARawlog, rawlogWithoutFramesIsRefused) {
+    write([](RawlogWriter& writer) {
+        mrpt::obs::CObservationIMU imu;
+        writer.write(imu);
+    });
+    EXPECT_THROW(FrameStream(rawlog_, withThreads(GetParam())), Error);
+}
+
+/** Wheels and gyroscope on their way round, at other moments than the frames. */
+void writeWithSensors(RawlogWriter& writer, double turn_rad) {
+    const double turn_rad_s = turn_rad / room_period_s;
+    const auto film = filmRoundTrip(frames, turn_rad);
+    for (int i = -4; i < 4 * frames; ++i) {
+        const double at_frame = 0.25 * i;
+        const auto time = toMrptTime(room_start_s + at_frame * room_period_s - 0.002);
+        mrpt::obs::CObservationIMU imu;
+        imu.timestamp = time;
+        imu.sensorPose = mrpt::poses::CPose3D(0, 0, 0, M_PI / 2, 0, 0);
+        imu.set(mrpt::obs::IMU_WX, 0);
+        imu.set(mrpt::obs::IMU_WY, 0);
+        imu.set(mrpt::obs::IMU_WZ, turn_rad_s);
+        writer.write(imu);
+        mrpt::obs::CObservationOdometry odometry;
+        odometry.timestamp = time;
+        const double angle = turn_rad_s * (at_frame * room_period_s - 0.002);
+        odometry.odometry = {3 + 0.5 * std::cos(angle), 0.5 * std::sin(angle), angle};
+        writer.write(odometry);
+        if (i >= 0 && i % 4 == 0) writer.write(*film[i / 4]);
+    }
+}
+
+TEST_P(StreamOfARawlog, framesCarryWhatWheelsAndGyroscopeSay) {
+    constexpr double turn_rad = 0.02;
+    write([](RawlogWriter& writer) { writeWithSensors(writer, turn_rad); });
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    std::vector<DeadReckoning> reckoned;
+    while (const auto frame = stream.next()) reckoned.push_back(frame->prepared.reckoning);
+    ASSERT_EQ(reckoned.size(), static_cast<std::size_t>(frames));
+    const SE3 T_base_cam = T_optical_from_mrpt.inverse();
+    for (int i = 1; i < frames; ++i) {
+        const SE3 truth =
+            (roundTrip(0, turn_rad) * T_base_cam).inverse() * (roundTrip(i, turn_rad) * T_base_cam);
+        ASSERT_TRUE(reckoned[i].T_odometry_cam && reckoned[i].R_gyroscope_cam) << i;
+        const SE3 wheels = reckoned[0].T_odometry_cam->inverse() * *reckoned[i].T_odometry_cam;
+        EXPECT_LT(wheels.minus(truth).norm(), 1e-4) << i;
+        const Eigen::Matrix3d turned =
+            reckoned[0].R_gyroscope_cam->transpose() * *reckoned[i].R_gyroscope_cam;
+        EXPECT_LT((turned - truth.R).norm(), 1e-6) << i;
+    }
+}
+
+TEST_P(StreamOfARawlog, wheelsThatAreImpossiblyFastTellNothing) {
+    write([](RawlogWriter& writer) {
+        const auto film = filmRoundTrip(frames, 0);
+        for (int i = 0; i < frames; ++i) {
+            mrpt::obs::CObservationOdometry odometry;
+            odometry.timestamp = toMrptTime(room_start_s + i * room_period_s - 0.002);
+            odometry.odometry = {20.0 * i, 0, 0};  // in mm, by mistake
+            writer.write(odometry);
+            writer.write(*film[i]);
+        }
+    });
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    stream.next();
+    while (const auto frame = stream.next()) {
+        EXPECT_FALSE(frame->prepared.reckoning.T_odometry_cam) << frame->index;
+    }
+}
+
+TEST_P(StreamOfARawlog, aJumpOfTheWheelsIsNoMotion) {
+    write([](RawlogWriter& writer) {
+        const auto film = filmRoundTrip(frames, 0);
+        for (int i = 0; i < frames; ++i) {
+            mrpt::obs::CObservationOdometry odometry;
+            odometry.timestamp = toMrptTime(room_start_s + i * room_period_s);
+            odometry.odometry = {0.01 * i + (i > 1 ? 100 : 0), 0, 0};
+            writer.write(odometry);
+            writer.write(*film[i]);
+        }
+    });
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    std::vector<DeadReckoning> reckoned;
+    while (const auto frame = stream.next()) reckoned.push_back(frame->prepared.reckoning);
+    EXPECT_FALSE(reckoned[2].T_odometry_cam);
+    ASSERT_TRUE(reckoned[1].T_odometry_cam && reckoned[3].T_odometry_cam);
+    const SE3 moved = reckoned[1].T_odometry_cam->inverse() * *reckoned[3].T_odometry_cam;
+    EXPECT_NEAR(moved.t.norm(), 0.01, 1e-9);
+}
+
+TEST_P(StreamOfARawlog, ratesThatWereNotMeasuredAreNotZero) {
+    write([](RawlogWriter& writer) {
+        const auto film = filmRoundTrip(frames, 0);
+        for (int i = 0; i < frames; ++i) {
+            mrpt::obs::CObservationIMU imu;
+            imu.timestamp = toMrptTime(room_start_s + i * room_period_s);
+            imu.set(mrpt::obs::IMU_X_ACC, 9.81);
+            if (i % 2) {
+                for (const auto axis : {mrpt::obs::IMU_WX, mrpt::obs::IMU_WY, mrpt::obs::IMU_WZ}) {
+                    imu.set(axis, std::nan(""));
+                }
+            }
+            writer.write(imu);
+            writer.write(*film[i]);
+        }
+    });
+    FrameStream stream(rawlog_, withThreads(GetParam()));
+    stream.start(slowAtFirst);
+    while (const auto frame = stream.next()) {
+        EXPECT_FALSE(frame->prepared.reckoning.R_gyroscope_cam) << frame->index;
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Threads, StreamOfARawlog, testing::Values(1, 2, 5));
+
+}  // namespace
+}  // namespace rgbd_graphslam
