@@ -11,6 +11,7 @@
 #include <set>
 #include <sstream>
 
+#include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/ini_formulas.h"
 
@@ -95,6 +96,11 @@ class Loader : public OptionVisitor {
                 const char*) override {
         assignWord(key, value, allowed);
     }
+    void renamed(const char* old_key, const char* key) override {
+        old_keys_[key] = old_key;
+        renamed_.emplace_back(old_key);
+    }
+    const std::vector<std::string>& renamed() const { return renamed_; }
     const std::vector<std::string>& keys() const { return keys_; }
 
   private:
@@ -129,11 +135,26 @@ class Loader : public OptionVisitor {
     }
     const std::string* find(const char* key, std::string& origin) {
         keys_.emplace_back(key);
-        return lookup_(key, origin);
+        const auto old_key = old_keys_.find(key);
+        if (old_key == old_keys_.end()) return lookup_(key, origin);
+        std::string old_origin;
+        const std::string* old_text = lookup_(old_key->second, old_origin);
+        const std::string* text = lookup_(key, origin);
+        if (!old_text) return text;
+        if (text) {
+            throw Error(old_origin + ": '" + old_key->second + "' and its new name '" + key +
+                            "' are both set",
+                        "keep '" + std::string(key) + "'");
+        }
+        origin = old_origin;
+        sayInfo(origin + ": '" + old_key->second + "' is now called '" + key +
+                "'; the next version will not know the old name");
+        return old_text;
     }
 
     Lookup lookup_;
-    std::vector<std::string> keys_;
+    std::vector<std::string> keys_, renamed_;
+    std::map<std::string, std::string> old_keys_;  // by the new one
 };
 
 /** Writes each visited field as "key = value  // [unit] help". */
@@ -265,7 +286,8 @@ void IniFile::loadKnown(const std::vector<Options*>& structs) const {
             return &entry->second.value;
         });
         options->describe(loader);
-        const std::set<std::string> keys(loader.keys().begin(), loader.keys().end());
+        std::set<std::string> keys(loader.keys().begin(), loader.keys().end());
+        keys.insert(loader.renamed().begin(), loader.renamed().end());
         for (const auto& [key, entry] : entries) {
             if (keys.count(key)) continue;
             throw Error(entry.origin + ": unknown key '" + key + "' in [" + section->first + "]",

@@ -195,7 +195,7 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"disconnected", report.disconnected},
         {"out_of_order", report.out_of_order},
         {"keyframes", report.keyframes},
-        {"apart_keyframes", report.disconnected_keyframes},
+        {"disconnected_keyframes", report.disconnected_keyframes},
         {"culled_keyframes", report.culled_keyframes},
         {"landmarks", report.landmarks},
         {"loops", report.loops.size()},

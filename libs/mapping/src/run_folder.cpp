@@ -40,7 +40,8 @@ std::string findRawlog(const nlohmann::json& summary, const fs::path& folder) {
 /** As it was given to rgbd-slam; nothing when the run was not localized. */
 std::optional<std::string> mapFolderOf(const nlohmann::json& summary) {
     const auto map = summary.value("map", nlohmann::json());
-    if (!map.is_object() || map.value("use", nlohmann::json()) != "localize") return std::nullopt;
+    const auto use = map.is_object() ? map.value("use", nlohmann::json()) : nlohmann::json();
+    if (use != "localize" && use != "localise") return std::nullopt;  // the latter: first edition
     const auto folder = map.value("folder", nlohmann::json());
     return folder.is_string() ? folder.get<std::string>() : std::string();
 }
@@ -122,7 +123,9 @@ MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
         inputs.earlier = earlierSessionsOf(summary);
         const auto label = summary.value("sensor", nlohmann::json());
         if (label.is_string()) inputs.sensor_label = label.get<std::string>();
-        inputs.disconnected = summary.value("apart_keyframes", std::vector<int>());
+        const bool is_old = summary.contains("apart_keyframes");  // as the first edition wrote it
+        inputs.disconnected = summary.value(is_old ? "apart_keyframes" : "disconnected_keyframes",
+                                            std::vector<int>());
     } catch (const nlohmann::json::exception&) {
         throw Error("'loop_edges', 'earlier_sessions' or 'disconnected_keyframes' in '" +
                         (root / "summary.json").string() + "' is not what rgbd-slam writes",

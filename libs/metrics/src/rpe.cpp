@@ -44,7 +44,7 @@ std::vector<double> placesOnPath(const Trajectory& path, DeltaUnit unit) {
     switch (unit) {
         case DeltaUnit::Seconds:
             return stampsOf(path);
-        case DeltaUnit::Meters:
+        case DeltaUnit::Metres:
             return sumsAlong(path, length);
         case DeltaUnit::Radians:
             return sumsAlong(path, angle);

@@ -23,14 +23,15 @@ std::string bytesOf(const fs::path& path) {
 FrameState stateOf(const std::string& word, const std::string& place) {
     if (word == "tracked") return FrameState::Tracked;
     if (word == "recovered") return FrameState::Recovered;
-    if (word == "weak") return FrameState::DeadReckoned;
+    // "weak" is what the first edition wrote.
+    if (word == "dead_reckoned" || word == "weak") return FrameState::DeadReckoned;
     if (word == "uncertain") return FrameState::Uncertain;
     if (word == "lost") return FrameState::Lost;
     throw Error(place + ": a frame is tracked, recovered, dead_reckoned, uncertain or lost",
                 "run rgbd-slam again");
 }
 
-/** Lines of stamp_s,origin,inliers,keyframe,part below a line of titles. */
+/** Lines of stamp_s,origin,inliers,keyframe,submap below a line of titles. */
 void readFrames(const fs::path& path, RunRecord& run) {
     std::ifstream in(path);
     if (!in) throw Error("cannot read '" + path.string() + "'", "run rgbd-slam again");

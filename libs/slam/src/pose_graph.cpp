@@ -115,7 +115,7 @@ PoseGraphSummary optimizePoseGraph(PoseGraph& graph, const PoseGraphOptions& opt
     }
     problem.SetParameterBlockConstant(blocks[fixed].data());
     for (int fixed = 0; held < graph.fixed; ++held) {
-        problem.SetParameterBlockConstant(blocks[held].data());
+        problem.SetParameterBlockConstant(blocks[fixed].data());
     }
     ceres::Solver::Summary summary;
     ceres::Solve(solverOptions(options), &problem, &summary);

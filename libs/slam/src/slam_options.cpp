@@ -56,14 +56,17 @@ void MapperOptions::describe(OptionVisitor& v) {
     v.integer("max_fixed_keyframes", max_fixed_keyframes, 0, 100, "",
               "Fixed keyframes that anchor local bundle adjustment");
     v.integer("iterations", iterations, 1, 100, "", "Iterations of local bundle adjustment");
+    v.renamed("hand_over_frames", "adjustment_delay_frames");
     v.integer(
         "adjustment_delay_frames", adjustment_delay_frames, 1, 100, "frames",
         "Frames after a keyframe at which the adjusted map is applied (fixed, so that results do "
         "not depend on timing)");
     v.integer("loop_iterations", loop_iterations, 1, 100, "",
               "Iterations of global bundle adjustment after a loop");
+    v.renamed("loop_hand_over_frames", "loop_adjustment_delay_frames");
     v.integer("loop_adjustment_delay_frames", loop_adjustment_delay_frames, 1, 10000, "frames",
               "Frames after a loop at which the globally adjusted map is applied");
+    v.renamed("localising_keyframes", "localization_keyframes");
     v.integer("localization_keyframes", localization_keyframes, 2, 1000000, "keyframes",
               "Temporary keyframes a --localize run keeps; older ones are discarded");
     v.flag("triangulate", triangulate, "Triangulate landmarks without depth from two views");
@@ -91,11 +94,14 @@ void LoopOptions::describe(OptionVisitor& v) {
 }
 
 void RecoveryOptions::describe(OptionVisitor& v) {
+    v.renamed("weak_motion", "dead_reckoning");
     v.flag("dead_reckoning", dead_reckoning,
            "When the map is not seen, follow the camera by the last frame, dense alignment, "
            "odometry or gyroscope");
+    v.renamed("weak_keyframe_after", "dead_reckoned_keyframe_after");
     v.integer("dead_reckoned_keyframe_after", dead_reckoned_keyframe_after, 1, 10000, "frames",
               "Consecutive dead-reckoned frames after which a keyframe is inserted anyway");
+    v.renamed("new_part_after", "new_submap_after");
     v.integer("new_submap_after", new_submap_after, 1, 10000, "frames",
               "Consecutive lost frames after which a new submap is started");
     v.integer("fewest_keypoints", fewest_keypoints, 50, 10000, "keypoints",

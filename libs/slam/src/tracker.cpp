@@ -160,7 +160,7 @@ std::optional<LocatedFrame> Tracker::followLast(const Frame& frame, const SE3& p
 }
 
 /** Matches the points of the last frame, landmarks or not, and solves for the pose.
- *  \return landmarks of the inliers, one per keypoint */
+ *  \return landmarks of the inliers, one a keypoint */
 std::vector<int> Tracker::matchLast(const Frame& frame, const SE3& predicted, double window_px,
                                     PoseSolution& solution) const {
     const SE3 T_world_last = lastPose().inverse();

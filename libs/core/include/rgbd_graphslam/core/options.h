@@ -19,6 +19,9 @@ class OptionVisitor {
     virtual void flag(const char* key, bool& value, const char* help) = 0;
     virtual void choice(const char* key, std::string& value,
                         const std::vector<std::string>& allowed, const char* help) = 0;
+    /** Key that an earlier version had for `key`, described next; files that have it are read with
+     * a notice. */
+    virtual void renamed(const char* /*old_key*/, const char* /*key*/) {}
 };
 
 /** Base of every options struct; the ini section has the struct's name. */
@@ -44,7 +47,8 @@ class IniFile {
      *  \throws Error when it has another form */
     void override(const std::string& assignment);
 
-    /** Fills the structs; keys that are absent leave the field as it is.
+    /** Fills the structs; keys that are absent leave the field as it is. Keys by their former names
+     *  are read, too, with one notice each.
      *  \throws Error naming file and line for an unknown section or key, a value that is no number,
      *          not finite or out of its range */
     void load(const std::vector<Options*>& structs) const;

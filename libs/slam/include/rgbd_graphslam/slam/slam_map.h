@@ -57,7 +57,7 @@ struct Keyframe {
     int id = 0;
     Frame frame;
     SE3 T_cam_world;
-    /** One entry per keypoint: landmark or no_landmark. */
+    /** One entry a keypoint: landmark or no_landmark. */
     std::vector<int> landmarks;
     /** A culled keyframe keeps its place relative to the living keyframe `parent`. */
     bool culled = false;
@@ -102,7 +102,7 @@ class SlamMap {
     /** The keypoint must be free and the landmark not yet seen by the keyframe. */
     void addObservation(int landmark, int keyframe, int keypoint);
     /** What a frame was found to see becomes the keyframe's; landmarks that have died since are
-     * left out. \param landmarks one entry per keypoint, no_landmark where none was found */
+     * left out. \param landmarks one entry a keypoint, no_landmark where none was found */
     void addObservations(const std::vector<int>& landmarks, int keyframe);
     /** A landmark that loses its last observation dies. */
     void removeObservation(int landmark, int keyframe);
@@ -161,7 +161,7 @@ class SlamMap {
     /** Dead landmarks and the number of keyframes at their death. */
     std::deque<std::pair<int, std::size_t>> dead_;
     std::vector<int> culled_;
-    mutable std::vector<int> votes_;  // one per keyframe, all zero between calls
+    mutable std::vector<int> votes_;  // one a keyframe, all zero between calls
 };
 
 }  // namespace rgbd_graphslam

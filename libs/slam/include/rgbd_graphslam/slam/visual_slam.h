@@ -153,7 +153,7 @@ class VisualSlam {
 
     struct StageTime {
         std::string stage;
-        std::vector<double> cpu_ms, wall_ms;  // one per call
+        std::vector<double> cpu_ms, wall_ms;  // one a call
     };
     std::vector<StageTime> stageTimes() const;
 
