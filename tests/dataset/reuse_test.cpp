@@ -11,6 +11,7 @@
 #include "rgbd_graphslam/dataset/sequence_import.h"
 #include "rgbd_graphslam/dataset/tum_sequence.h"
 #include "rgbd_graphslam/input/frame_stream.h"
+#include "rgbd_graphslam/input/rawlog_source.h"
 #include "rgbd_graphslam/job/slam_job.h"
 #include "rgbd_graphslam/job/sparse_map_file.h"
 
@@ -106,7 +107,7 @@ TEST_P(MapOfEvenFrames, holdsTheOddOnes) {
 /** Each odd frame without any idea of its pose: as the first of a run. */
 TEST_P(MapOfEvenFrames, anyFrameIsRecognizedAlone) {
     const SparseMap map = readSparseMap(folder_ / "even/map.sparse");
-    FrameStream stream(folder_ / "odd.rawlog", RunOptions());
+    FrameStream stream(std::make_unique<RawlogSource>(folder_ / "odd.rawlog"), ReadAhead());
     const SlamOptions options;
     const Camera camera = cameraOf(stream.firstFrame());
     const VisualSlam extractor(options, camera);

@@ -67,7 +67,7 @@ bool COrbLoopClosureERD::updateState(mrpt::obs::CActionCollection::Ptr,
     SharedSlam& shared = *m_graph->shared;
     shared.loops_found = false;
     if (shared.new_keyframe) {
-        for (const PoseEdge& loop : shared.slam->findLoops(*shared.new_keyframe)) {
+        for (const PoseEdge& loop : shared.slam->closeLoops(*shared.new_keyframe)) {
             registerNewEdge(loop.from, loop.to, registered(loop, shared));
         }
     }
@@ -98,10 +98,6 @@ bool CCeresGSO::updateState(mrpt::obs::CActionCollection::Ptr, mrpt::obs::CSenso
 }
 
 void CCeresGSO::optimizeGraph() {
-    SharedSlam& shared = *m_graph->shared;
-    PoseGraph graph = shared.slam->poseGraph();
-    shared.times.measure("optimize", [&] { optimizePoseGraph(graph, shared.options.pose_graph); });
-    shared.slam->correct(graph.nodes);
     dropForgottenLoops(*m_graph);
     updateNodes(*m_graph);
 }

@@ -177,13 +177,6 @@ const SE3& GraphSlamSession::T_base_cam() const {
     return impl_->shared().T_base_cam;
 }
 
-std::vector<VisualSlam::StageTime> GraphSlamSession::stageTimes() const {
-    auto times = slam().stageTimes();
-    const auto own = impl_->shared().times.all();
-    times.insert(times.end(), own.begin(), own.end());
-    return times;
-}
-
 void GraphSlamSession::writeGraph(const std::string& path, const SE3& T_out_world) const {
     KeyframeGraph graph = impl_->completeGraph();
     const mrpt::poses::CPose3D T_out_graph =

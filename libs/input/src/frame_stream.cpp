@@ -20,7 +20,6 @@
 #include "rgbd_graphslam/core/bounded_queue.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
-#include "rgbd_graphslam/dataset/rawlog_reader.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 
 namespace rgbd_graphslam {
@@ -47,14 +46,14 @@ void checkStamp(const CObservation3DRangeScan& frame, std::size_t index) {
 
 class FrameStream::Implementation {
   public:
-    Implementation(const std::string& rawlog, const RunOptions& options,
+    Implementation(std::unique_ptr<ObservationSource> source, const ReadAhead& ahead,
                    const std::string& sensor_label)
-        : options_(options),
+        : threads_(ahead.threads),
           sensor_label_(sensor_label),
-          reader_(rawlog),
-          queue_(static_cast<std::size_t>(options.frames_ahead)) {
+          source_(std::move(source)),
+          queue_(static_cast<std::size_t>(ahead.frames)) {
         auto frame = readFrame();
-        if (!frame) refuse(rawlog);
+        if (!frame) refuse();
         pending_.push_back(std::move(*frame));
     }
 
@@ -79,8 +78,8 @@ class FrameStream::Implementation {
 
     void start(Prepare prepare) {
         prepare_ = std::move(prepare);
-        busy_workers_ = options_.threads - 1;
-        for (int i = 0; i < options_.threads - 1; ++i) workers_.emplace_back([this] { work(); });
+        busy_workers_ = threads_ - 1;
+        for (int i = 0; i < threads_ - 1; ++i) workers_.emplace_back([this] { work(); });
     }
 
     void stop() {
@@ -113,17 +112,15 @@ class FrameStream::Implementation {
     }
 
   private:
-    /** \throws Error saying what the rawlog has in place of frames of the camera asked for */
-    [[noreturn]] void refuse(const std::string& rawlog) const {
+    /** \throws Error saying what the source has in place of frames of the camera asked for */
+    [[noreturn]] void refuse() const {
         const std::string holds = "; it has " + sensorsText(census_.sensors(), false);
         if (sensor_label_.empty()) {
-            throw Error(
-                "the rawlog '" + rawlog + "' has no RGB-D frame (CObservation3DRangeScan)" + holds,
-                "import a sequence with rgbd-import");
+            throw Error(source_->name() + " has no RGB-D frame (CObservation3DRangeScan)" + holds,
+                        "import a sequence with rgbd-import");
         }
-        throw Error(
-            "the rawlog '" + rawlog + "' has no RGB-D camera '" + sensor_label_ + "'" + holds,
-            "give --sensor the label of an RGB-D camera, or leave it out");
+        throw Error(source_->name() + " has no RGB-D camera '" + sensor_label_ + "'" + holds,
+                    "give --sensor the label of an RGB-D camera, or leave it out");
     }
 
     void work() {
@@ -175,7 +172,7 @@ class FrameStream::Implementation {
     std::optional<StreamedFrame> readFrame() {
         if (ended_) return std::nullopt;
         ended_ = true;  // for good, should reading throw
-        while (const auto observation = reader_.next()) {
+        while (const auto observation = source_->next()) {
             auto frame = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation);
             if (!first_ && frame && isWanted(*frame)) {
                 first_ = frame;
@@ -190,7 +187,8 @@ class FrameStream::Implementation {
             ended_ = false;
             const std::size_t index = frames_read_++;
             checkStamp(*frame, index);
-            expected_frames_ = std::lround(frames_read_ / std::max(1e-9, reader_.progress()));
+            const double share = source_->progress().value_or(1);
+            expected_frames_ = std::lround(frames_read_ / std::max(1e-9, share));
             const DeadReckoning reckoning =
                 reckoner_.at(toSeconds(frame->timestamp), cameraOnRobot(*first_));
             return StreamedFrame{
@@ -238,13 +236,13 @@ class FrameStream::Implementation {
         frame.prepared.reckoning = frame.reckoning;
     }
 
-    const RunOptions options_;
+    const int threads_;
     const std::string sensor_label_;
     StageTimes times_;
     Prepare prepare_;
 
     std::mutex reading_;  // guards all down to frames_read_
-    RawlogReader reader_;
+    const std::unique_ptr<ObservationSource> source_;
     DeadReckoner reckoner_;
     std::vector<mrpt::obs::CObservation::Ptr> before_;
     bool ended_ = false;
@@ -264,9 +262,9 @@ class FrameStream::Implementation {
     std::vector<std::thread> workers_;
 };
 
-FrameStream::FrameStream(const std::string& rawlog, const RunOptions& options,
+FrameStream::FrameStream(std::unique_ptr<ObservationSource> source, const ReadAhead& ahead,
                          const std::string& sensor_label)
-    : impl_(std::make_unique<Implementation>(rawlog, options, sensor_label)) {}
+    : impl_(std::make_unique<Implementation>(std::move(source), ahead, sensor_label)) {}
 
 FrameStream::~FrameStream() = default;
 

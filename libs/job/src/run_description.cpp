@@ -113,7 +113,7 @@ void evaluate(const Trajectory& estimate, const Trajectory& truth, RunState& run
 
 void collectStages(RunState& run) {
     run.report.stages = run.stream.times().all();
-    const auto of_session = run.session.stageTimes();
+    const auto of_session = run.session.slam().stageTimes();
     run.report.stages.insert(run.report.stages.end(), of_session.begin(), of_session.end());
 }
 

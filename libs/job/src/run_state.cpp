@@ -6,6 +6,7 @@
 #include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/input/rawlog_source.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -49,7 +50,8 @@ GraphSlamSession makeSession(const SlamJob& job, const FrameStream& stream,
 RunState::RunState(const SlamJob& slam_job, std::optional<SparseMap> start_map)
     : job(slam_job),
       start(std::move(start_map)),
-      stream(job.rawlog, job.options.run, job.sensor_label),
+      stream(std::make_unique<RawlogSource>(job.rawlog),
+             {job.options.run.threads, job.options.run.frames_ahead}, job.sensor_label),
       survey(stream.lookAhead(RecordingSurvey::frames)),
       session(makeSession(settled(job, survey), stream, start)),
       level(job.options.maps),

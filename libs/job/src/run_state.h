@@ -59,7 +59,7 @@ struct RunState {
     std::size_t frames_read = 0;           // tracked or left out
     int first_keyframe = 0;                // of this rawlog
     int submap = 0;                        // of the map that is written
-    std::vector<SE3> T_previous_keyframe;  // one a keyframe, the identity for the first
+    std::vector<SE3> T_previous_keyframe;  // one per keyframe, the identity for the first
     std::vector<double> depth_shares;      // of the pixels of each keyframe
     KeyframeSheet keyframe_sheet;
     GravityAligner level;

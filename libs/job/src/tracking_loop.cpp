@@ -24,7 +24,7 @@ void TrackingLoop::track(CheckpointWriter& checkpoints) {
     run_.stream.start(
         [&session = run_.session](const RgbdImage& image) { return session.prepare(image); });
     while (!finished()) {
-        const auto frame = nextFrame();
+        auto frame = nextFrame();
         if (!frame) break;
         trackOne(*frame);
         ++run_.frames_read;
@@ -80,7 +80,7 @@ bool TrackingLoop::takesItsTurn(const StreamedFrame& frame) {
     return false;
 }
 
-void TrackingLoop::trackOne(const StreamedFrame& frame) {
+void TrackingLoop::trackOne(StreamedFrame& frame) {
     for (const auto& observation : frame.before) {
         run_.level.note(*observation);
         run_.sensors.note(*observation);
@@ -91,9 +91,8 @@ void TrackingLoop::trackOne(const StreamedFrame& frame) {
     if (!run_.first_stamp_s) run_.first_stamp_s = stamp_s;
     ++run_.report.frames;
     const ThreadClock clock;
-    Frame prepared = frame.prepared;
-    run_.sensors.withhold(prepared.reckoning);
-    const TrackedFrame tracked = run_.session.step(frame.observation, std::move(prepared));
+    run_.sensors.withhold(frame.prepared.reckoning);
+    const TrackedFrame tracked = run_.session.step(frame.observation, std::move(frame.prepared));
     run_.sensors.compareWhenDue(run_.session.slam(), run_.report.frames);
     run_.report.frame_times.push_back({stamp_s, clock.wallMs()});
     live_feed_.note(frame, tracked, run_.report.frame_times.back().wall_ms, run_.session);

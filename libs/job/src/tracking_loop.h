@@ -21,7 +21,7 @@ class TrackingLoop {
     bool interrupted() const { return interruption_.requested(); }
 
   private:
-    void trackOne(const StreamedFrame& frame);
+    void trackOne(StreamedFrame& frame);
     bool takesItsTurn(const StreamedFrame& frame);
     std::optional<StreamedFrame> nextFrame();
     bool finished() const;

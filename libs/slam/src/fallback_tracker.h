@@ -10,7 +10,7 @@
 namespace rgbd_graphslam {
 
 /** Follows the camera by the points of one frame for as long as it can, so that errors do not add
- * up from frame to frame, and else by DenseOdometry. Says when the map should begin anew. */
+ * up from frame to frame, and else by DenseOdometry. Says when a submap should start. */
 class FallbackTracker {
   public:
     /** Both arguments must outlive this.

@@ -33,7 +33,7 @@ Matrix6d KeyframeEdges::informationOf(int keyframe, const std::vector<int>& land
     return 0.5 * solvePose(camera_, matches, k.T_cam_world).information;
 }
 
-/** Landmarks of a keyframe, one a keypoint, without those that the other does not see. */
+/** Landmarks of a keyframe, one per keypoint, without those that the other does not see. */
 std::vector<int> KeyframeEdges::sharedLandmarks(int keyframe, int other) const {
     std::vector<int> shared = map_.keyframe(keyframe).landmarks;
     for (int& landmark : shared) {

@@ -9,7 +9,7 @@ namespace rgbd_graphslam {
 
 /** Moves keypoints to where the patches of the landmarks that they show lie, and marks those as
  *  aligned. Without patches nothing moves.
- *  \param landmarks one a keypoint, or no_landmark
+ *  \param landmarks one per keypoint, or no_landmark
  *  \param T_cam_world within a few pixels */
 void alignKeypoints(Frame& frame, const std::vector<int>& landmarks, const SE3& T_cam_world,
                     const Camera& camera, const SlamMap& map);

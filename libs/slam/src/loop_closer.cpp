@@ -148,11 +148,9 @@ bool LoopCloser::correct(const std::vector<SE3>& T_world_keyframe, LocalMapper& 
         moved.push_back(T_world_keyframe[keyframe.id] * map_.T_cam_world(keyframe.id));
     }
     for (std::size_t id = 0; id < map_.landmarks().size(); ++id) {
-        Landmark& landmark = map_.landmark(static_cast<int>(id));
+        const Landmark& landmark = map_.landmark(static_cast<int>(id));
         if (!landmark.alive) continue;
-        const SE3& motion = moved[landmark.observations.back().keyframe];
-        landmark.position = motion * landmark.position;
-        landmark.view_direction = motion.R * landmark.view_direction;
+        map_.moveLandmark(static_cast<int>(id), moved[landmark.observations.back().keyframe]);
     }
     for (const Keyframe& keyframe : map_.keyframes()) {
         if (!keyframe.culled) map_.setPose(keyframe.id, T_world_keyframe[keyframe.id].inverse());

@@ -66,7 +66,7 @@ void MapAdjustment::apply(SlamMap& map) const {
         map.setPose(keyframes_[c], problem.T_cam_world[c]);
     }
     for (std::size_t p = 0; p < landmarks_.size(); ++p) {
-        if (isStill(landmarks_[p], map)) map.landmark(landmarks_[p]).position = problem.points[p];
+        if (isStill(landmarks_[p], map)) map.setPosition(landmarks_[p], problem.points[p]);
     }
     for (std::size_t o = 0; o < problem.observations.size(); ++o) {
         const bool doubted = problem.observations[o].outlier;
@@ -86,7 +86,7 @@ void MapAdjustment::moveUnadjusted(int keyframe, const SE3& new_T_cam_world, Sla
         }
         const bool takes_part = std::binary_search(landmarks_.begin(), landmarks_.end(), id);
         if (takes_part && isStill(id, map)) continue;
-        map.landmark(id).position = motion * map.landmark(id).position;
+        map.setPosition(id, motion * map.landmark(id).position);
     }
 }
 
@@ -97,9 +97,9 @@ void MapAdjustment::carryYounger(SlamMap& map) const {
     const SE3 motion = T_cam_world.inverse() * map.T_cam_world(*newest);
     const SE3 back = motion.inverse();
     for (std::size_t id = 0; id < map.landmarks().size(); ++id) {
-        Landmark& landmark = map.landmark(static_cast<int>(id));
+        const Landmark& landmark = map.landmark(static_cast<int>(id));
         if (!landmark.alive || landmark.observations.front().keyframe < keyframes_in_map_) continue;
-        landmark.position = motion * landmark.position;
+        map.setPosition(static_cast<int>(id), motion * landmark.position);
     }
     for (std::size_t k = keyframes_in_map_; k < map.keyframes().size(); ++k) {
         const int id = static_cast<int>(k);

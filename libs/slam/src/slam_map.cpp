@@ -93,12 +93,18 @@ int SlamMap::addKeyframe(Frame frame, const SE3& T_cam_world, int submap, Link l
     return keyframes_.back().id;
 }
 
+void SlamMap::moveLandmark(int landmark, const SE3& T_new_old) {
+    Landmark& moved = landmarks_[landmark];
+    moved.position = T_new_old * moved.position;
+    moved.view_direction = T_new_old.R * moved.view_direction;
+}
+
 void SlamMap::mergeSubmap(int submap, int into, const SE3& T_new_old) {
-    for (Landmark& landmark : landmarks_) {
+    for (std::size_t id = 0; id < landmarks_.size(); ++id) {
+        const Landmark& landmark = landmarks_[id];
         if (!landmark.alive) continue;
         if (keyframes_[landmark.observations.front().keyframe].submap != submap) continue;
-        landmark.position = T_new_old * landmark.position;
-        landmark.view_direction = T_new_old.R * landmark.view_direction;
+        moveLandmark(static_cast<int>(id), T_new_old);
     }
     const SE3 T_old_new = T_new_old.inverse();
     for (Keyframe& keyframe : keyframes_) {

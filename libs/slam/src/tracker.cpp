@@ -160,7 +160,7 @@ std::optional<LocatedFrame> Tracker::followLast(const Frame& frame, const SE3& p
 }
 
 /** Matches the points of the last frame, landmarks or not, and solves for the pose.
- *  \return landmarks of the inliers, one a keypoint */
+ *  \return landmarks of the inliers, one per keypoint */
 std::vector<int> Tracker::matchLast(const Frame& frame, const SE3& predicted, double window_px,
                                     PoseSolution& solution) const {
     const SE3 T_world_last = lastPose().inverse();
@@ -226,7 +226,7 @@ std::optional<LocatedFrame> Tracker::trackLocalMap(Frame& frame, const SE3& T_ca
         const int keypoint = found.keypoints[m];
         int& landmark = located.landmarks[keypoint];
         if (solution.inlier[m]) {
-            ++map_.landmark(landmark).times_found;
+            map_.noteFound(landmark);
         } else {
             landmark = no_landmark;
             frame.keypoints[keypoint].aligned = false;
@@ -337,11 +337,11 @@ int Tracker::searchLocalLandmarks(const Frame& frame, const SE3& T_cam_world,
     for (std::size_t i = 0; i < landmarks.size(); ++i) {
         if (landmarks[i] == no_landmark) continue;
         table.reserve(static_cast<int>(i));
-        ++map_.landmark(landmarks[i]).times_expected;
+        map_.noteExpected(landmarks[i]);
         ++expected;
     }
     for (const int id : localLandmarks(landmarks)) {
-        Landmark& landmark = map_.landmark(id);
+        const Landmark& landmark = map_.landmark(id);
         const Eigen::Vector3d p = T_cam_world * landmark.position;
         if (p.z() < nearest_depth_m) continue;
         const Eigen::Vector2d pixel = camera_.project(p);
@@ -351,7 +351,7 @@ int Tracker::searchLocalLandmarks(const Frame& frame, const SE3& T_cam_world,
         if (to_camera.dot(landmark.view_direction) < widest_view_change_cosine * distance) continue;
         const int octave = map_.expectedOctave(landmark, distance);
         if (octave < -1 || octave > map_.levels()) continue;
-        ++landmark.times_expected;
+        map_.noteExpected(id);
         ++expected;
         const int clamped = std::clamp(octave, 0, map_.levels() - 1);
         const auto radius =

@@ -72,7 +72,7 @@ class RunScene {
     Camera camera_;
     std::vector<TrueError> errors_;
     int error_scale_ = 1;
-    std::vector<KeyframePicture> pictures_;  // one a keyframe, empty while not read
+    std::vector<KeyframePicture> pictures_;  // one per keyframe, empty while not read
     std::optional<double> now_s_;
     double lowest_ceiling_m_ = 2;
 };

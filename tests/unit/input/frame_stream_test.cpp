@@ -12,18 +12,28 @@
 #include "../../support/tum_folder.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
+#include "rgbd_graphslam/input/rawlog_source.h"
 
 namespace rgbd_graphslam {
 namespace {
 
 constexpr int frames = 12;
 
-RunOptions withThreads(int threads) {
-    RunOptions options;
-    options.threads = threads;
-    options.frames_ahead = 3;
-    return options;
-}
+/** Observations from memory, of which nobody knows how many come. */
+class MemorySource final : public ObservationSource {
+  public:
+    explicit MemorySource(std::vector<mrpt::obs::CObservation::Ptr> observations)
+        : observations_(std::move(observations)) {}
+    mrpt::obs::CObservation::Ptr next() override {
+        return next_ < observations_.size() ? observations_[next_++] : nullptr;
+    }
+    std::optional<double> progress() const override { return std::nullopt; }
+    std::string name() const override { return "memory"; }
+
+  private:
+    const std::vector<mrpt::obs::CObservation::Ptr> observations_;
+    std::size_t next_ = 0;
+};
 
 class StreamOfARawlog : public testing::TestWithParam<int> {
   protected:
@@ -53,7 +63,7 @@ class StreamOfARawlog : public testing::TestWithParam<int> {
 };
 
 TEST_P(StreamOfARawlog, keepsTheOrderOfTheFile) {
-    FrameStream stream(rawlog_, withThreads(GetParam()));
+    FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
     stream.start(slowAtFirst);
     for (int i = 0; i < frames; ++i) {
         const auto frame = stream.next();
@@ -65,9 +75,23 @@ TEST_P(StreamOfARawlog, keepsTheOrderOfTheFile) {
     EXPECT_EQ(stream.expectedFrames(), static_cast<std::size_t>(frames));
 }
 
+TEST_P(StreamOfARawlog, readsAnySource) {
+    std::vector<mrpt::obs::CObservation::Ptr> observations;
+    for (const auto& frame : filmRoundTrip(frames, 0.02)) observations.push_back(frame);
+    FrameStream stream(std::make_unique<MemorySource>(observations), {GetParam(), 3});
+    stream.start(slowAtFirst);
+    for (int i = 0; i < frames; ++i) {
+        const auto frame = stream.next();
+        ASSERT_TRUE(frame);
+        EXPECT_EQ(frame->observation, observations[i]);
+    }
+    EXPECT_FALSE(stream.next());
+    EXPECT_EQ(stream.expectedFrames(), static_cast<std::size_t>(frames));
+}
+
 TEST_P(StreamOfARawlog, readsNoFurtherAheadThanTold) {
     std::atomic<int> prepared{0};
-    FrameStream stream(rawlog_, withThreads(GetParam()));
+    FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
     stream.start([&](const RgbdImage& image) {
         ++prepared;
         return slowAtFirst(image);
@@ -78,7 +102,7 @@ TEST_P(StreamOfARawlog, readsNoFurtherAheadThanTold) {
 }
 
 TEST_P(StreamOfARawlog, canBeLeftInTheMiddle) {
-    FrameStream stream(rawlog_, withThreads(GetParam()));
+    FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
     stream.start(slowAtFirst);
     EXPECT_TRUE(stream.next());
 }
@@ -86,7 +110,7 @@ TEST_P(StreamOfARawlog, canBeLeftInTheMiddle) {
 TEST_P(StreamOfARawlog, preparesNothingOnceStopped) {
     std::atomic<bool> stopped{false};
     std::atomic<int> too_late{0};
-    FrameStream stream(rawlog_, withThreads(GetParam()));
+    FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
     stream.start([&](const RgbdImage& image) {
         Frame frame = slowAtFirst(image);
         if (stopped) ++too_late;
@@ -101,7 +125,7 @@ TEST_P(StreamOfARawlog, preparesNothingOnceStopped) {
 
 TEST_P(StreamOfARawlog, handsOutWhatComesBeforeTheCut) {
     cutFile(rawlog_, 0.6);
-    FrameStream stream(rawlog_, withThreads(GetParam()));
+    FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
     stream.start(slowAtFirst);
     int handed_out = 0;
     const auto drain = [&] {
@@ -117,7 +141,7 @@ TEST_P(StreamOfARawlog, frameWithoutDepthIsNamed) {
         film[1]->hasRangeImage = false;
         for (const auto& frame : film) writer.write(*frame);
     });
-    FrameStream stream(rawlog_, withThreads(GetParam()));
+    FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
     stream.start(slowAtFirst);
     EXPECT_TRUE(stream.next());
     try {
@@ -133,7 +157,7 @@ TEST_P(StreamOfARawlog, rawlogWithoutFramesIsRefused) {
         mrpt::obs::CObservationIMU imu;
         writer.write(imu);
     });
-    EXPECT_THROW(FrameStream(rawlog_, withThreads(GetParam())), Error);
+    EXPECT_THROW(FrameStream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3}), Error);
 }
 
 /** Wheels and gyroscope on their way round, at other moments than the frames. */
@@ -162,7 +186,7 @@ void writeWithSensors(RawlogWriter& writer, double turn_rad) {
 TEST_P(StreamOfARawlog, framesCarryWhatWheelsAndGyroscopeSay) {
     constexpr double turn_rad = 0.02;
     write([](RawlogWriter& writer) { writeWithSensors(writer, turn_rad); });
-    FrameStream stream(rawlog_, withThreads(GetParam()));
+    FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
     stream.start(slowAtFirst);
     std::vector<DeadReckoning> reckoned;
     while (const auto frame = stream.next()) reckoned.push_back(frame->prepared.reckoning);
@@ -191,7 +215,7 @@ TEST_P(StreamOfARawlog, wheelsThatAreImpossiblyFastTellNothing) {
             writer.write(*film[i]);
         }
     });
-    FrameStream stream(rawlog_, withThreads(GetParam()));
+    FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
     stream.start(slowAtFirst);
     stream.next();
     while (const auto frame = stream.next()) {
@@ -210,7 +234,7 @@ TEST_P(StreamOfARawlog, aJumpOfTheWheelsIsNoMotion) {
             writer.write(*film[i]);
         }
     });
-    FrameStream stream(rawlog_, withThreads(GetParam()));
+    FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
     stream.start(slowAtFirst);
     std::vector<DeadReckoning> reckoned;
     while (const auto frame = stream.next()) reckoned.push_back(frame->prepared.reckoning);
@@ -236,7 +260,7 @@ TEST_P(StreamOfARawlog, ratesThatWereNotMeasuredAreNotZero) {
             writer.write(*film[i]);
         }
     });
-    FrameStream stream(rawlog_, withThreads(GetParam()));
+    FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
     stream.start(slowAtFirst);
     while (const auto frame = stream.next()) {
         EXPECT_FALSE(frame->prepared.reckoning.R_gyroscope_cam) << frame->index;

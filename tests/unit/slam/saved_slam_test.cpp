@@ -14,10 +14,7 @@ constexpr double pi = 3.14159265358979;
 
 void step(VisualSlam& slam, const Frame& frame) {
     const TrackedFrame tracked = slam.track(frame);
-    if (!tracked.keyframe || slam.findLoops(*tracked.keyframe).empty()) return;
-    PoseGraph graph = slam.poseGraph();
-    optimizePoseGraph(graph, PoseGraphOptions());
-    slam.correct(graph.nodes);
+    if (tracked.keyframe) slam.closeLoops(*tracked.keyframe);
 }
 
 std::string saved(const VisualSlam& slam) {

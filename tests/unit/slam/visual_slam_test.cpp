@@ -46,11 +46,7 @@ SlamRun runOn(const std::vector<std::optional<SE3>>& poses, SlamOptions options 
         run.truth.push_back(poses[i].value_or(SE3()));
         if (!tracked.keyframe) continue;
         ++run.keyframes;
-        if (slam.findLoops(*tracked.keyframe).empty()) continue;
-        ++run.loops;
-        PoseGraph graph = slam.poseGraph();
-        optimizePoseGraph(graph, options.pose_graph);
-        slam.correct(graph.nodes);
+        run.loops += !slam.closeLoops(*tracked.keyframe).empty();
     }
     slam.finish();
     run.frames = slam.frames();
@@ -339,10 +335,7 @@ std::vector<TrackedFrame> localizedOnTheCircle(MappedWorld& mapped, int frames, 
     for (int i = 0; i < frames; ++i) {
         const auto frame =
             slam.track(mapped.world.view(onCircle(0.8 + 0.02 * i), i + 1, mapped.camera));
-        if (!frame.keyframe || slam.findLoops(*frame.keyframe).empty()) continue;
-        PoseGraph graph = slam.poseGraph();
-        optimizePoseGraph(graph, PoseGraphOptions());
-        slam.correct(graph.nodes);
+        if (frame.keyframe) slam.closeLoops(*frame.keyframe);
     }
     slam.finish();
     return slam.frames();

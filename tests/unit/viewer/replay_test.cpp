@@ -5,7 +5,7 @@
 namespace rgbd_graphslam {
 namespace {
 
-/** A frame a second from 100 s on, each second one a keyframe. */
+/** A frame a second from 100 s on, each second one per keyframe. */
 RunData tenSeconds() {
     RunData run;
     for (int i = 0; i <= 10; ++i) {

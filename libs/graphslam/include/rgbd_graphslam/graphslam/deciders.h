@@ -30,7 +30,7 @@ class COrbKeyframeNRD : public mrpt::graphslam::deciders::CNodeRegistrationDecid
     global_pose_t getCurrentRobotPosEstimation() const override;
 };
 
-/** Recognizes places at each new keyframe and adds verified loop edges. */
+/** Closes loops at each new keyframe and adds the verified edges. */
 class COrbLoopClosureERD
     : public mrpt::graphslam::deciders::CEdgeRegistrationDecider<KeyframeGraph> {
   public:
@@ -47,7 +47,8 @@ class COrbLoopClosureERD
                          const constraint_t& edge) override;
 };
 
-/** Optimizes the keyframe poses with Ceres after each loop, and moves the map with them. */
+/** Moves the nodes to where a closed loop has put the keyframes. The SLAM optimizes its pose graph
+ *  itself (Ceres), because its map moves with it. */
 class CCeresGSO : public mrpt::graphslam::optimizers::CGraphSlamOptimizer<KeyframeGraph> {
   public:
     CCeresGSO();

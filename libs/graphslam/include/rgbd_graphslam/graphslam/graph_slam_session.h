@@ -53,8 +53,6 @@ class GraphSlamSession {
     const VisualSlam& slam() const;
     /** Pose of the color camera's optical frame on the robot's base. */
     const SE3& T_base_cam() const;
-    /** Stages of slam() and of the engine. */
-    std::vector<VisualSlam::StageTime> stageTimes() const;
 
     /** Writes the graph in MRPT's text format (that of TORO): robot poses at the keyframes,
      *  odometry and loop edges with their information. \param T_out_world put before every pose

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "rgbd_graphslam/slam/slam_options.h"
-#include "rgbd_graphslam/slam/stage_times.h"
 #include "rgbd_graphslam/slam/visual_slam.h"
 
 namespace rgbd_graphslam {
@@ -28,7 +27,6 @@ struct SharedSlam {
     std::vector<PoseEdge> edges;
     /** Whether the present step has added loop edges. */
     bool loops_found = false;
-    StageTimes times;
 };
 
 /** A graph whose nodes are robot poses (x forward, y left, z up) at the keyframes: node i is

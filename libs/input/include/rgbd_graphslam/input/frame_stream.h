@@ -1,4 +1,4 @@
-/** Frames of a rawlog, read and prepared ahead of tracking. */
+/** Frames of a source, read and prepared ahead of tracking. */
 #pragma once
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
@@ -12,16 +12,16 @@
 #include "rgbd_graphslam/features/frame.h"
 #include "rgbd_graphslam/geometry/rgbd_image.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/input/observation_source.h"
 #include "rgbd_graphslam/input/sensor_census.h"
-#include "rgbd_graphslam/job/run_options.h"
 #include "rgbd_graphslam/slam/stage_times.h"
 
 namespace rgbd_graphslam {
 
 struct StreamedFrame {
-    /** All else that the rawlog holds between the frame before and this one. */
+    /** All else that the source holds between the frame before and this one. */
     std::vector<mrpt::obs::CObservation::Ptr> before;
-    /** Counts the RGB-D frames of the rawlog from 0. */
+    /** Counts the RGB-D frames of the camera from 0. */
     std::size_t index = 0;
     mrpt::obs::CObservation3DRangeScan::Ptr observation;
     Frame prepared;
@@ -29,8 +29,14 @@ struct StreamedFrame {
     DeadReckoning reckoning;
 };
 
-/** Gives the RGB-D frames of a rawlog in file order, whatever the number of threads. With one
- *  thread all happens in next(); else the others read and prepare up to `frames_ahead` frames, and
+/** How many threads the process may use, the one that fetches frames included, and how many frames
+ *  may wait to be fetched. */
+struct ReadAhead {
+    int threads = 2, frames = 8;
+};
+
+/** Gives the RGB-D frames of a source in its order, whatever the number of threads. With one thread
+ *  all happens in next(); else the others read and prepare up to `ReadAhead::frames` frames, and
  *  wait when these are not fetched. */
 class FrameStream {
   public:
@@ -38,8 +44,8 @@ class FrameStream {
 
     /** Reads up to the first RGB-D frame.
      *  \param sensor_label of the camera to take; empty = the one whose frame comes first
-     *  \throws Error when the file is no rawlog or has no RGB-D frame of that camera */
-    FrameStream(const std::string& rawlog, const RunOptions& options,
+     *  \throws Error when the source has no RGB-D frame of that camera */
+    FrameStream(std::unique_ptr<ObservationSource> source, const ReadAhead& ahead,
                 const std::string& sensor_label = {});
     ~FrameStream();
     FrameStream(const FrameStream&) = delete;
@@ -60,7 +66,7 @@ class FrameStream {
     void start(Prepare prepare);
 
     /** The next frame; nothing at the end.
-     *  \throws Error naming the frame where the rawlog is cut off or damaged, or a frame has no
+     *  \throws Error naming the frame where the source is cut off or damaged, or a frame has no
      *          usable images; there is nothing after it */
     std::optional<StreamedFrame> next();
 
@@ -68,13 +74,13 @@ class FrameStream {
      */
     void stop();
 
-    /** Number of frames in the whole rawlog, estimated from what is read. */
+    /** Number of frames in the whole source, estimated from what is read. */
     std::size_t expectedFrames() const;
 
     /** Ground truth read so far, robot poses in the truth's world. */
     Trajectory truth() const;
 
-    /** All that the rawlog holds as far as it is read. */
+    /** All that the source holds as far as it is read. */
     std::vector<SensorRecord> sensors() const;
 
     /** "read" and "decode". */

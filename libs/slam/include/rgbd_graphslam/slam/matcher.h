@@ -33,7 +33,7 @@ class MatchTable {
 
   private:
     const Frame& frame_;
-    std::vector<int> point_;     // one a keypoint, -1 = unclaimed
+    std::vector<int> point_;     // one per keypoint, -1 = unclaimed
     std::vector<int> distance_;  // of the claim; -1 = reserved
 };
 

@@ -44,7 +44,7 @@ class PlaceIndex {
   private:
     struct Tree;
     int max_hamming_;
-    /** One a keyframe. */
+    /** One per keyframe. */
     std::vector<char> erased_;
     std::vector<std::unique_ptr<Tree>> trees_;
 };

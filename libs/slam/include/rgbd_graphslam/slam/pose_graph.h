@@ -7,7 +7,7 @@
 
 namespace rgbd_graphslam {
 
-enum class EdgeKind { Odometry, Covisibility, Loop };
+enum class EdgeKind { Sequential, Covisibility, Loop };
 
 /** A measured relative pose. The residual is the tangent vector (m, rad) of
  *  measured^-1 * predicted, and `information` is the inverse of its covariance in that order. */

@@ -47,7 +47,7 @@ struct Landmark {
 enum class Link : std::uint8_t {
     /** By landmarks that both see. */
     Tracked,
-    /** By a weak measurement of motion. */
+    /** By dead reckoning. */
     DeadReckoned,
     /** Not at all: the camera was lost, the recording is another, or known views lie between. */
     None,
@@ -57,7 +57,7 @@ struct Keyframe {
     int id = 0;
     Frame frame;
     SE3 T_cam_world;
-    /** One entry a keypoint: landmark or no_landmark. */
+    /** One entry per keypoint: landmark or no_landmark. */
     std::vector<int> landmarks;
     /** A culled keyframe keeps its place relative to the living keyframe `parent`. */
     bool culled = false;
@@ -102,13 +102,22 @@ class SlamMap {
     /** The keypoint must be free and the landmark not yet seen by the keyframe. */
     void addObservation(int landmark, int keyframe, int keypoint);
     /** What a frame was found to see becomes the keyframe's; landmarks that have died since are
-     * left out. \param landmarks one entry a keypoint, no_landmark where none was found */
+     * left out. \param landmarks one entry per keypoint, no_landmark where none was found */
     void addObservations(const std::vector<int>& landmarks, int keyframe);
     /** A landmark that loses its last observation dies. */
     void removeObservation(int landmark, int keyframe);
     void removeLandmark(int landmark);
     /** Gives the observations of `from` to `into` and removes `from`. */
     void fuse(int from, int into);
+    void setPosition(int landmark, const Eigen::Vector3d& position) {
+        landmarks_[landmark].position = position;
+    }
+    /** Moves a landmark in the world, and the direction from which it was seen last with it. */
+    void moveLandmark(int landmark, const SE3& T_new_old);
+    /** A frame should have seen the landmark. */
+    void noteExpected(int landmark) { ++landmarks_[landmark].times_expected; }
+    /** A frame has seen it. */
+    void noteFound(int landmark) { ++landmarks_[landmark].times_found; }
     /** Takes a keyframe out of the map; its pose, and those that were tied to it, are tied to
      *  `parent`, which lives. */
     void cull(int keyframe, int parent);
@@ -119,9 +128,8 @@ class SlamMap {
     const std::vector<Landmark>& landmarks() const { return landmarks_; }
     const Keyframe& keyframe(int id) const { return keyframes_[id]; }
     const Landmark& landmark(int id) const { return landmarks_[id]; }
-    Landmark& landmark(int id) { return landmarks_[id]; }
     std::size_t aliveLandmarks() const { return alive_; }
-    /** Number of keyframes, the first ones, that hold() named. */
+    /** Number of keyframes, the first ones, that freeze() fixed. */
     int fixedCount() const { return static_cast<int>(fixed_); }
     /** Whether a keyframe keeps its pose: the first always does. */
     bool isFixed(int keyframe) const { return keyframe == 0 || keyframe < fixedCount(); }
@@ -161,7 +169,7 @@ class SlamMap {
     /** Dead landmarks and the number of keyframes at their death. */
     std::deque<std::pair<int, std::size_t>> dead_;
     std::vector<int> culled_;
-    mutable std::vector<int> votes_;  // one a keyframe, all zero between calls
+    mutable std::vector<int> votes_;  // one per keyframe, all zero between calls
 };
 
 }  // namespace rgbd_graphslam

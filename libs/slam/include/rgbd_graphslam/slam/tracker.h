@@ -13,7 +13,7 @@ namespace rgbd_graphslam {
 /** A frame whose pose is known. */
 struct LocatedFrame {
     SE3 T_cam_world;
-    /** One a keypoint: the landmark it shows, or no_landmark. */
+    /** One per keypoint: the landmark it shows, or no_landmark. */
     std::vector<int> landmarks;
     int inliers = 0;
     /** Landmarks of the local map that the pose puts into the image. */
@@ -49,7 +49,7 @@ class Tracker {
 
     /** Searches the landmarks around a pose and refines it; for a frame placed by other means.
      *  \param frame as for track()
-     *  \param landmarks known already, one a keypoint
+     *  \param landmarks known already, one per keypoint
      *  \param kernel Geman and McClure's for a pose that is good already */
     std::optional<LocatedFrame> trackLocalMap(Frame& frame, const SE3& T_cam_world,
                                               const std::vector<int>& landmarks,

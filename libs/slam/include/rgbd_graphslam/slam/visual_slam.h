@@ -18,6 +18,8 @@
 
 namespace rgbd_graphslam {
 
+class SlamPipeline;
+
 /** How a frame's pose was obtained. */
 enum class FrameOrigin {
     /** By landmarks, from the frame before. */
@@ -48,7 +50,7 @@ struct TrackedFrame {
     /** Keyframe this frame's pose is stored relative to. */
     int reference_keyframe = 0;
     SE3 T_reference_cam;
-    /** Of the map, see KeyframeView::part. */
+    /** Of the map, see KeyframeView::submap. */
     int submap = 0;
     /** Set when the frame became a keyframe: its id, which counts from 0 without gaps. */
     std::optional<int> keyframe;
@@ -85,11 +87,7 @@ struct LandmarkView {
  *    VisualSlam slam(options, camera);
  *    for (image : images) {
  *        TrackedFrame tracked = slam.track(slam.prepare(image));
- *        if (tracked.keyframe && !slam.findLoops(*tracked.keyframe).empty()) {
- *            PoseGraph graph = slam.poseGraph();
- *            optimizePoseGraph(graph, options.pose_graph);
- *            slam.correct(graph.nodes);
- *        }
+ *        if (tracked.keyframe) slam.closeLoops(*tracked.keyframe);
  *    }
  *    slam.finish();
  *  \endcode
@@ -112,9 +110,13 @@ class VisualSlam {
     /** The edge from the keyframe before `keyframe` (> 0) to it, measured by what both see. */
     PoseEdge odometryEdge(int keyframe) const;
 
-    /** Places seen before that `keyframe` sees again, geometrically verified; they join
-     * poseGraph().
-     */
+    /** Finds the places seen before that `keyframe` sees again, optimizes the pose graph with these
+     *  loops, and corrects the map. \return the loops found and verified; loops() has those that
+     *  the optimized graph upholds */
+    std::vector<PoseEdge> closeLoops(int keyframe);
+
+    /** First step of closeLoops(), for those who optimize poseGraph() themselves: loops that are
+     *  geometrically verified; they join the graph. correct() must follow when there are any. */
     std::vector<PoseEdge> findLoops(int keyframe);
 
     /** Present poses of all keyframes and the edges between them: odometry, covisibility, loops. */
@@ -153,13 +155,12 @@ class VisualSlam {
 
     struct StageTime {
         std::string stage;
-        std::vector<double> cpu_ms, wall_ms;  // one a call
+        std::vector<double> cpu_ms, wall_ms;  // one per call
     };
     std::vector<StageTime> stageTimes() const;
 
   private:
-    class Implementation;
-    std::unique_ptr<Implementation> impl_;
+    std::unique_ptr<SlamPipeline> pipeline_;
 };
 
 }  // namespace rgbd_graphslam

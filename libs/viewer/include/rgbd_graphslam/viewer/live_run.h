@@ -64,7 +64,7 @@ class LiveRun {
     std::size_t revisions_ = 0;
     std::optional<LiveFrame> frame_;
     std::vector<LiveStatistic> statistics_;
-    std::vector<std::optional<Cloud>> clouds_;  // one a keyframe
+    std::vector<std::optional<Cloud>> clouds_;  // one per keyframe
 };
 
 }  // namespace rgbd_graphslam

@@ -1,0 +1,356 @@
+#include "slam_pipeline.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "map_fit.h"
+#include "rgbd_graphslam/slam/map_encoding.h"
+
+namespace rgbd_graphslam {
+namespace {
+
+constexpr int fewest_first_landmarks = 50;
+constexpr int final_iterations = 10;
+
+}  // namespace
+
+SlamPipeline::SlamPipeline(const SlamOptions& options, const Camera& camera)
+    : options_(options),
+      camera_(camera),
+      builder_(options_.features, camera_),
+      map_(options_.features.scale_factor, options_.features.levels),
+      tracker_(options_, camera_, map_),
+      mapper_(options_, camera_, map_),
+      global_adjuster_(options_, camera_, map_),
+      closer_(options_, camera_, map_),
+      edges_(options_.sensor, camera_, map_),
+      fallback_(options_.recovery, tracker_),
+      relocalizer_(options_, camera_, map_, closer_, tracker_),
+      decision_(options_.keyframes) {}
+
+Frame SlamPipeline::prepare(const RgbdImage& image) const {
+    Frame frame;
+    times_.measure("extract", [&] { frame = builder_.build(image); });
+    return frame;
+}
+
+void SlamPipeline::restore(MapSnapshot snapshot, MapUse use) {
+    requireFits(snapshot, options_.features, camera_, use);
+    seeWith(camera_, snapshot);
+    map_.restore(std::move(snapshot.keyframes), std::move(snapshot.landmarks));
+    times_.measure("place-index", [&] { closer_.restore(std::move(snapshot.loops)); });
+    decision_.reset(map_.keyframes().back());
+    if (use == MapUse::Localize) map_.freeze();
+    uncertainty_.restore(map_.keyframes().size());
+    link_ = Link::None;
+}
+
+void SlamPipeline::save(ByteWriter& out) const {
+    map_.save(out);
+    tracker_.save(out);
+    mapper_.save(out);
+    global_adjuster_.save(out);
+    closer_.save(out);
+    fallback_.save(out);
+    relocalizer_.save(out);
+    decision_.save(out);
+    trajectory_.save(out);
+    uncertainty_.save(out);
+    for (const int number : {frames_since_keyframe_, frames_since_loop_}) {
+        out.put<std::int32_t>(number);
+    }
+    putFlag(initialized_, out);
+    put(link_, out);
+}
+
+void SlamPipeline::load(ByteReader& in) {
+    map_.load(in, camera_);
+    tracker_.load(in);
+    mapper_.load(in);
+    global_adjuster_.load(in);
+    closer_.load(in);
+    fallback_.load(in, camera_, builder_.viewCamera(), map_.levels());
+    relocalizer_.load(in);
+    decision_.load(in, map_.keyframes().size());
+    trajectory_.load(in, map_.keyframes().size());
+    uncertainty_.load(in, map_.keyframes().size());
+    for (int* number : {&frames_since_keyframe_, &frames_since_loop_}) {
+        *number = getTally(in);
+    }
+    initialized_ = getFlag(in);
+    link_ = getLink(in);
+}
+
+TrackedFrame SlamPipeline::track(Frame frame) {
+    trajectory_.requireLater(frame.stamp_s);
+    ++frames_since_keyframe_;
+    ++frames_since_loop_;
+    if (mapper_.pending() && frames_since_keyframe_ >= options_.mapper.adjustment_delay_frames)
+        applyPendingAdjustment();
+    if (frames_since_loop_ == options_.mapper.loop_adjustment_delay_frames)
+        applyPendingAdjustments();
+    FrameRecord record;
+    record.stamp_s = frame.stamp_s;
+    if (map_.keyframes().empty()) {
+        start(std::move(frame), record);
+    } else {
+        auto located = locate(frame, record);
+        if (located) {
+            acceptTracked(std::move(frame), std::move(*located), record);
+        } else {
+            handleTrackingLoss(std::move(frame), record);
+        }
+    }
+    trajectory_.add(record);
+    return record.view(map_, uncertainty_);
+}
+
+/** The first frame with enough depth becomes the origin of the world. */
+void SlamPipeline::start(Frame frame, FrameRecord& record) {
+    if (keypointsWithDepth(frame) < fewest_first_landmarks) return;
+    startSubmap(std::move(frame), record);
+}
+
+/** Nothing before any frame of this run has been located. */
+std::optional<Prediction> SlamPipeline::prediction(const Frame& frame) const {
+    if (!initialized_) return std::nullopt;
+    const SE3 T_cam_world = fallback_.guess(frame).inverse() * trajectory_.lastPose(map_);
+    return Prediction{T_cam_world, map_.keyframe(trajectory_.lastReference()).submap,
+                      fallback_.priorAt(frame)};
+}
+
+/** \param record its origin tells how far the pose is believed, or that it is doubted altogether */
+std::optional<LocatedFrame> SlamPipeline::trackBelievably(Frame& frame, FrameRecord& record) {
+    record.origin = FrameOrigin::Lost;
+    const std::vector<Keypoint> keypoints = frame.keypoints;
+    auto located = tracker_.track(frame);
+    if (!located) return located;
+    record.origin = FrameOrigin::Tracked;
+    if (options_.tracker.detect_standstill) {
+        const int nearest = map_.observers(located->landmarks).front().keyframe;
+        const Keyframe& keyframe = map_.keyframe(nearest);
+        if (standsAt(keyframe, frame, located->landmarks, map_, camera_)) {
+            located->T_cam_world = keyframe.T_cam_world;
+        }
+    }
+    if (!initialized_) return located;
+    const SE3 T_last_cam = trajectory_.lastPose(map_) * located->T_cam_world.inverse();
+    const Verdict verdict =
+        judge(*located, {fallback_.guess(frame).inverse() * T_last_cam, fallback_.priorAt(frame)},
+              {fallback_.inertia(frame).inverse() * T_last_cam, fallback_.priorByInertia(frame)});
+    if (verdict == Verdict::Believed) return located;
+    record.origin = FrameOrigin::Uncertain;
+    if (verdict == Verdict::Uncertain) return located;
+    frame.keypoints = keypoints;
+    return std::nullopt;
+}
+
+std::optional<LocatedFrame> SlamPipeline::locate(Frame& frame, FrameRecord& record) {
+    std::optional<LocatedFrame> located;
+    times_.measure("track", [&] { located = trackBelievably(frame, record); });
+    if (located) return located;
+    applyPendingAdjustment();
+    times_.measure("relocalize", [&] { located = relocalizer_.find(frame, prediction(frame)); });
+    if (!located) return located;
+    record.origin = FrameOrigin::Recovered;
+    tracker_.forget();
+    link_ = Link::None;
+    return located;
+}
+
+void SlamPipeline::acceptTracked(Frame frame, LocatedFrame located, FrameRecord& record) {
+    relocalizer_.forget();
+    const SE3 T_last_cam =
+        initialized_ ? trajectory_.lastPose(map_) * located.T_cam_world.inverse() : SE3();
+    const bool believed = record.origin != FrameOrigin::Uncertain;
+    if (believed) {
+        const bool goes_on = initialized_ && record.origin == FrameOrigin::Tracked;
+        fallback_.restart(frame, goes_on ? std::optional<SE3>(T_last_cam) : std::nullopt);
+    } else {
+        fallback_.goOn(frame, T_last_cam);
+    }
+    initialized_ = true;
+    int reference = map_.observers(located.landmarks).front().keyframe;
+    const bool proves_a_place = record.origin == FrameOrigin::Recovered;
+    if (believed && (decision_.wants(map_, located, frames_since_keyframe_) || proves_a_place)) {
+        applyPendingAdjustment();
+        if (decision_.reference() != map_.keyframes().back().id) link_ = Link::None;
+        reference = insertKeyframe(
+            frame, located, map_.keyframe(reference).submap, reference,
+            {KeyframeLink::By::Landmarks, weakestDirection(covarianceAgainstMap(located))});
+        record.keyframe = reference;
+        located.landmarks = map_.keyframe(reference).landmarks;
+    }
+    record.inliers = located.inliers;
+    record.covariance = packed(covarianceAgainstMap(located));
+    record.reference_keyframe = reference;
+    record.T_cam_reference = located.T_cam_world * map_.T_cam_world(reference).inverse();
+    tracker_.setLast(std::move(frame), std::move(located), reference, true);
+}
+
+/** The map is not seen: the frame is tied to the last one, starts a submap, or is lost. */
+void SlamPipeline::handleTrackingLoss(Frame frame, FrameRecord& record) {
+    std::optional<SE3> T_last_cam;
+    if (initialized_ && options_.recovery.dead_reckoning) {
+        times_.measure("dead-reckoning",
+                       [&] { T_last_cam = fallback_.follow(frame, trajectory_.lastPose(map_)); });
+    } else {
+        fallback_.miss(frame);
+    }
+    const bool doubted = record.origin == FrameOrigin::Uncertain;
+    record.origin = !T_last_cam ? FrameOrigin::Lost
+                    : doubted   ? FrameOrigin::Uncertain
+                                : FrameOrigin::DeadReckoned;
+    if (T_last_cam && link_ == Link::Tracked) link_ = Link::DeadReckoned;
+    SE3 T_cam_world = T_last_cam.value_or(SE3()).inverse() * trajectory_.lastPose(map_);
+    // Inverses that are transposes double the rounding error of a chain with each link_.
+    T_cam_world.R = orthonormalized(T_cam_world.R);
+    record.reference_keyframe = trajectory_.lastReference();
+    record.T_cam_reference = T_cam_world * map_.T_cam_world(record.reference_keyframe).inverse();
+    record.covariance = packed(covarianceOf(fallback_.prior().spread()));
+    if (fallback_.shouldStartSubmap(frame, T_last_cam || !initialized_)) {
+        return startSubmap(std::move(frame), record);
+    }
+    if (!T_last_cam) return tracker_.forget();
+    LocatedFrame located{T_cam_world, std::vector<int>(frame.keypoints.size(), no_landmark), 0};
+    tracker_.setLast(std::move(frame), std::move(located), record.reference_keyframe, true);
+}
+
+/** A keyframe that shares nothing with those before: where dead reckoning says it is, or in a
+ * submap of its own. */
+void SlamPipeline::startSubmap(Frame frame, FrameRecord& record) {
+    applyPendingAdjustment();
+    const bool tied =
+        record.origin == FrameOrigin::DeadReckoned || record.origin == FrameOrigin::Uncertain;
+    link_ = tied ? Link::DeadReckoned : Link::None;
+    const int new_submap = static_cast<int>(map_.keyframes().size());
+    LocatedFrame located;
+    located.landmarks.assign(frame.keypoints.size(), no_landmark);
+    if (!map_.keyframes().empty()) located.T_cam_world = record.T_cam_world(map_);
+    const KeyframeLink tie{KeyframeLink::By::DeadReckoning,
+                           tied ? fallback_.prior().spread() : PoseSpread()};
+    const int id = insertKeyframe(
+        frame, located, tied ? map_.keyframe(record.reference_keyframe).submap : new_submap,
+        tied ? record.reference_keyframe : no_reference, tie);
+    located.landmarks = map_.keyframe(id).landmarks;
+    if (!tied) record.origin = FrameOrigin::Tracked;
+    record.keyframe = record.reference_keyframe = id;
+    record.T_cam_reference = SE3();
+    record.covariance = packed(covarianceOf({}));
+    record.inliers =
+        static_cast<int>(std::count_if(located.landmarks.begin(), located.landmarks.end(),
+                                       [](int l) { return l != no_landmark; }));
+    initialized_ = true;
+    fallback_.restart(frame, std::nullopt);
+    tracker_.setLast(std::move(frame), std::move(located), id, tied);
+}
+
+std::vector<PoseEdge> SlamPipeline::closeLoops(int keyframe) {
+    std::vector<PoseEdge> loops = findLoops(keyframe);
+    if (loops.empty()) return loops;
+    PoseGraph graph = edges_.graph(closer_.loops());
+    times_.measure("optimize", [&] { optimizePoseGraph(graph, options_.pose_graph); });
+    correct(graph.nodes);
+    return loops;
+}
+
+std::vector<PoseEdge> SlamPipeline::findLoops(int keyframe) {
+    std::vector<PoseEdge> loops;
+    if (!options_.loops.enabled) return loops;
+    times_.measure("find-loops", [&] { loops = closer_.findLoops(keyframe); });
+    // What comes next asks where keyframes are, and adjusts everything anew.
+    if (!loops.empty()) applyPendingAdjustments();
+    for (const PoseEdge& loop : loops) {
+        mergeSubmaps(loop);
+        uncertainty_.closeLoop(loop.from, loop.to);
+    }
+    return loops;
+}
+
+void SlamPipeline::correct(const std::vector<SE3>& T_world_keyframe) {
+    applyPendingAdjustment();
+    bool closed = false;
+    times_.measure("correct", [&] { closed = closer_.correct(T_world_keyframe, mapper_); });
+    if (!closed || !options_.mapper.loop_adjustment) return;
+    global_adjuster_.start(options_.mapper.loop_iterations);
+    frames_since_loop_ = 0;
+}
+
+void SlamPipeline::finish() {
+    applyPendingAdjustments();
+    if (!options_.mapper.final_adjustment) return;
+    times_.measure("final-adjustment", [&] { global_adjuster_.adjustNow(final_iterations); });
+}
+
+void SlamPipeline::mergeSubmaps(const PoseEdge& loop) {
+    const int from = map_.keyframe(loop.from).submap, to = map_.keyframe(loop.to).submap;
+    if (from == to) return;
+    applyPendingAdjustment();
+    const SE3 T_world_to = map_.T_cam_world(loop.from).inverse() * loop.T_from_to;
+    const SE3 motion = T_world_to * map_.T_cam_world(loop.to);
+    if (to > from) {
+        map_.mergeSubmap(to, from, motion);
+    } else {
+        map_.mergeSubmap(from, to, motion.inverse());
+    }
+}
+
+int SlamPipeline::insertKeyframe(const Frame& frame, const LocatedFrame& located, int submap,
+                                 int reference, const KeyframeLink& tie) {
+    int id = 0;
+    const SE3 T_cam_reference = reference == no_reference
+                                    ? SE3()
+                                    : located.T_cam_world * map_.T_cam_world(reference).inverse();
+    uncertainty_.add(reference, T_cam_reference, tie);
+    times_.measure("map", [&] {
+        id = map_.addKeyframe(frame, located.T_cam_world, submap, link_);
+        map_.addObservations(located.landmarks, id);
+        mapper_.insert(id);
+    });
+    decision_.reset(map_.keyframe(id));
+    frames_since_keyframe_ = 0;
+    link_ = Link::Tracked;
+    return id;
+}
+
+void SlamPipeline::applyPendingAdjustment() {
+    if (!mapper_.pending()) return;
+    double adjustment_ms = 0;
+    times_.measure("apply-adjustment", [&] { adjustment_ms = mapper_.applyPendingAdjustment(); });
+    times_.add("local-adjustment", adjustment_ms, adjustment_ms);
+}
+
+void SlamPipeline::applyPendingAdjustments() {
+    applyPendingAdjustment();
+    if (!global_adjuster_.pending()) return;
+    double adjustment_ms = 0;
+    times_.measure("apply-adjustment",
+                   [&] { adjustment_ms = global_adjuster_.applyPendingAdjustment(); });
+    times_.add("loop-adjustment", adjustment_ms, adjustment_ms);
+}
+
+std::vector<KeyframeView> SlamPipeline::keyframes() const {
+    std::vector<KeyframeView> views;
+    for (const Keyframe& keyframe : map_.keyframes()) {
+        views.push_back({keyframe.id, keyframe.frame.stamp_s,
+                         map_.T_cam_world(keyframe.id).inverse(), keyframe.culled,
+                         keyframe.submap});
+    }
+    return views;
+}
+
+std::vector<LandmarkView> SlamPipeline::landmarks() const {
+    std::vector<LandmarkView> views;
+    for (const Landmark& landmark : map_.landmarks()) {
+        if (!landmark.alive) continue;
+        views.push_back({landmark.position, static_cast<int>(landmark.observations.size())});
+    }
+    return views;
+}
+
+MapSnapshot SlamPipeline::snapshot() const {
+    return takeSnapshot(map_, camera_, options_.features.scale_factor, closer_.loops());
+}
+
+}  // namespace rgbd_graphslam
