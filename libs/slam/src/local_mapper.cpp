@@ -2,9 +2,9 @@
 
 #include <algorithm>
 
+#include "projected_search.h"
 #include "rgbd_graphslam/slam/bundle_adjustment.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
-#include "rgbd_graphslam/slam/matcher.h"
 #include "rgbd_graphslam/slam/triangulation.h"
 
 namespace rgbd_graphslam {
@@ -95,26 +95,15 @@ void LocalMapper::joinWithNeighbors(int id) {
 // NOLINTNEXTLINE(performance-unnecessary-value-param)
 void LocalMapper::joinInto(int keyframe_id, std::vector<int> landmarks) {
     const Keyframe& keyframe = map_.keyframe(keyframe_id);
-    const Eigen::Vector3d camera_position = keyframe.T_cam_world.inverse().t;
-    MatchTable table(keyframe.frame);
+    ProjectedSearch search(keyframe.frame, keyframe.T_cam_world, camera_, map_);
     for (const int id : landmarks) {
         if (id == no_landmark || !map_.landmark(id).alive) continue;
         if (map_.keypointOf(id, keyframe_id) >= 0) continue;
-        const Landmark& landmark = map_.landmark(id);
-        const Eigen::Vector3d p = keyframe.T_cam_world * landmark.position;
-        if (p.z() < nearest_depth_m) continue;
-        const Eigen::Vector2d pixel = camera_.project(p);
-        if (!camera_.contains(pixel)) continue;
-        const double distance = (camera_position - landmark.position).norm();
-        const int octave = map_.expectedOctave(landmark, distance);
-        const int clamped = std::clamp(octave, 0, map_.levels() - 1);
-        const auto radius = static_cast<float>(join_window_px * map_.scaleOf(clamped));
-        table.search(id, landmark.descriptor,
-                     {static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), radius,
-                      octave - 1, octave + 1},
-                     join_hamming, 1.0f);
+        const auto projected = search.project(id);
+        if (!projected) continue;
+        search.search(*projected, search.octave(*projected), {join_window_px, 0, join_hamming, 1});
     }
-    for (const auto& [keypoint, landmark] : table.matches()) join(landmark, keyframe_id, keypoint);
+    for (const auto& [keypoint, landmark] : search.matches()) join(landmark, keyframe_id, keypoint);
 }
 
 /** Lets `landmark` be seen by a keypoint, provided that the geometry agrees. */

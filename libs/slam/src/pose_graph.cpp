@@ -114,8 +114,8 @@ PoseGraphSummary optimizePoseGraph(PoseGraph& graph, const PoseGraphOptions& opt
                                  blocks[edge.from].data(), blocks[edge.to].data());
     }
     problem.SetParameterBlockConstant(blocks[fixed].data());
-    for (int fixed = 0; held < graph.fixed; ++held) {
-        problem.SetParameterBlockConstant(blocks[fixed].data());
+    for (int node = 0; node < graph.fixed; ++node) {
+        problem.SetParameterBlockConstant(blocks[node].data());
     }
     ceres::Solver::Summary summary;
     ceres::Solve(solverOptions(options), &problem, &summary);

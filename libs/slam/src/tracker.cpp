@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "keypoint_alignment.h"
+#include "projected_search.h"
 #include "rgbd_graphslam/core/free_memory.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
 #include "rgbd_graphslam/slam/matcher.h"
@@ -27,6 +28,12 @@ constexpr double least_agreement = 0.5;
 double trustIn(std::size_t observations) {
     constexpr double trust[] = {0.2, 0.2, 0.5, 1};
     return trust[std::min<std::size_t>(observations, 3)];
+}
+
+/** A landmark may look different from elsewhere. */
+bool isSeenFromItsSide(const ProjectedLandmark& projected, const Landmark& landmark) {
+    return projected.to_camera.dot(landmark.view_direction) >=
+           widest_view_change_cosine * projected.distance_m;
 }
 
 /** The matched keypoints in rising order with what they show. */
@@ -304,64 +311,45 @@ std::vector<std::pair<int, int>> Tracker::matchAround(const Frame& frame,
                                                       const std::vector<int>& keyframes) {
     ++search_;
     visited_.resize(map_.landmarks().size(), 0);
-    MatchTable table(frame);
-    const Eigen::Vector3d position = expected.T_cam_world.inverse().t;
+    ProjectedSearch search(frame, expected.T_cam_world, camera_, map_);
     for (const int id : landmarksOf(keyframes)) {
-        const Landmark& landmark = map_.landmark(id);
-        const Eigen::Vector3d p = expected.T_cam_world * landmark.position;
-        if (p.z() < nearest_depth_m) continue;
-        const double uncertain_px =
-            window_sigmas * camera_.fx * (expected.sigma_m / p.z() + expected.sigma_rad);
+        const auto projected = search.project(id);
+        if (!projected) continue;
+        const double uncertain_px = window_sigmas * camera_.fx *
+                                    (expected.sigma_m / projected->depth_m + expected.sigma_rad);
         if (uncertain_px > widest_window * camera_.width) continue;
-        const Eigen::Vector2d pixel = camera_.project(p);
-        if (!camera_.contains(pixel)) continue;
-        const int octave = map_.expectedOctave(landmark, (position - landmark.position).norm());
-        if (octave < -1 || octave > map_.levels()) continue;
-        const double scale = map_.scaleOf(std::clamp(octave, 0, map_.levels() - 1));
-        const auto radius =
-            static_cast<float>(options_.tracker.map_window_px * scale + uncertain_px);
-        table.search(id, landmark.descriptor,
-                     {static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), radius,
-                      octave - 1, octave + 1},
-                     options_.tracker.max_hamming, map_match_ratio);
+        const int octave = search.octave(*projected);
+        if (!search.isInPyramid(octave)) continue;
+        search.search(*projected, octave,
+                      {options_.tracker.map_window_px, uncertain_px, options_.tracker.max_hamming,
+                       map_match_ratio});
     }
-    return table.matches();
+    return search.matches();
 }
 
 /** \return how many landmarks the pose puts into the image */
 int Tracker::searchLocalLandmarks(const Frame& frame, const SE3& T_cam_world,
                                   std::vector<int>& landmarks) {
     int expected = 0;
-    const Eigen::Vector3d camera_position = T_cam_world.inverse().t;
-    MatchTable table(frame);
+    ProjectedSearch search(frame, T_cam_world, camera_, map_);
     for (std::size_t i = 0; i < landmarks.size(); ++i) {
         if (landmarks[i] == no_landmark) continue;
-        table.reserve(static_cast<int>(i));
+        search.reserve(static_cast<int>(i));
         map_.noteExpected(landmarks[i]);
         ++expected;
     }
+    const SearchLimits limits{options_.tracker.map_window_px, 0, options_.tracker.max_hamming,
+                              map_match_ratio};
     for (const int id : localLandmarks(landmarks)) {
-        const Landmark& landmark = map_.landmark(id);
-        const Eigen::Vector3d p = T_cam_world * landmark.position;
-        if (p.z() < nearest_depth_m) continue;
-        const Eigen::Vector2d pixel = camera_.project(p);
-        if (!camera_.contains(pixel)) continue;
-        const Eigen::Vector3d to_camera = camera_position - landmark.position;
-        const double distance = to_camera.norm();
-        if (to_camera.dot(landmark.view_direction) < widest_view_change_cosine * distance) continue;
-        const int octave = map_.expectedOctave(landmark, distance);
-        if (octave < -1 || octave > map_.levels()) continue;
+        const auto projected = search.project(id);
+        if (!projected || !isSeenFromItsSide(*projected, map_.landmark(id))) continue;
+        const int octave = search.octave(*projected);
+        if (!search.isInPyramid(octave)) continue;
         map_.noteExpected(id);
         ++expected;
-        const int clamped = std::clamp(octave, 0, map_.levels() - 1);
-        const auto radius =
-            static_cast<float>(options_.tracker.map_window_px * map_.scaleOf(clamped));
-        table.search(id, landmark.descriptor,
-                     {static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), radius,
-                      octave - 1, octave + 1},
-                     options_.tracker.max_hamming, map_match_ratio);
+        search.search(*projected, octave, limits);
     }
-    for (const auto& [keypoint, landmark] : table.matches()) landmarks[keypoint] = landmark;
+    for (const auto& [keypoint, landmark] : search.matches()) landmarks[keypoint] = landmark;
     return expected;
 }
 

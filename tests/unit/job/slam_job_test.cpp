@@ -300,7 +300,7 @@ TEST_F(JobOnARawlog, partsThatNothingJoinsAreKeptApart) {
     const auto summary = nlohmann::json::parse(output("summary.json"));
     EXPECT_EQ(summary["disconnected"], later - 2);
     ASSERT_FALSE(summary["disconnected_keyframes"].empty());
-    EXPECT_EQ(readRunFolder(job_.out_folder, "").apart, report.disconnected_keyframes);
+    EXPECT_EQ(readRunFolder(job_.out_folder, "").disconnected, report.disconnected_keyframes);
 }
 
 TEST_F(JobOnARawlog, laterRunIsLocalizedInTheMap) {
