@@ -21,6 +21,7 @@ struct SampleOptions : Options {
     const char* section() const override { return "SampleOptions"; }
     const char* about() const override { return "For the test"; }
     void describe(OptionVisitor& v) override {
+        v.renamed("width_m", "size_m");
         v.real("size_m", size_m, 0, 1, "m", "Size");
         v.integer("count", count, 1, 9, "", "Count");
         v.flag("fast", fast, "Speed");
@@ -96,6 +97,22 @@ TEST(IniFile, namesLineAndRemedyOfMistakes) {
     EXPECT_THAT(problemOf("[SampleOptions]\nmode = middle"), HasSubstr("near|far"));
     EXPECT_THAT(problemOf("[SampleOptions]\njust words"), HasSubstr("a.ini:2"));
     EXPECT_THAT(problemOf("[SampleOptions]\ncount=1\ncount=2"), HasSubstr("twice"));
+}
+
+TEST(IniFile, formerNamesAreReadWithANotice) {
+    SampleOptions options;
+    testing::internal::CaptureStderr();
+    testing::internal::CaptureStdout();
+    IniFile::fromText("[SampleOptions]\nwidth_m = 0.7\n", "a.ini").load({&options});
+    const std::string said =
+        testing::internal::GetCapturedStdout() + testing::internal::GetCapturedStderr();
+    EXPECT_EQ(options.size_m, 0.7);
+    EXPECT_THAT(said, HasSubstr("a.ini:2: 'width_m' is now called 'size_m'"));
+}
+
+TEST(IniFile, bothNamesOfOneKeyAreRefused) {
+    const std::string problem = problemOf("[SampleOptions]\nwidth_m = 0.7\nsize_m = 0.6\n");
+    EXPECT_THAT(problem, StartsWith("a.ini:2: 'width_m' and its new name 'size_m' are both set"));
 }
 
 TEST(IniFile, overrideWins) {
