@@ -123,7 +123,7 @@ void GravityAligner::addKeyframe(std::size_t number, const RgbdImage& image, con
 }
 
 SE3 GravityAligner::T_gravity_world(const MapInputs& inputs, const SE3& T_base_cam) const {
-    const MapInputs kept = withoutApart(inputs);
+    const MapInputs kept = withoutDisconnected(inputs);
     const auto views = surfacesInWorld(inputs);
     const Eigen::Vector3d up = findUp(kept, allPatches(views), T_base_cam);
     const auto floor = findFloor(views, up);

@@ -140,7 +140,7 @@ MapSummary writeFiles(const MapInputs& inputs, const Maps& maps, const MapOption
 MapSummary writeMaps(const MapInputs& inputs, const MapOptions& options,
                      const std::string& out_folder) {
     checkInputs(inputs);
-    const MapInputs connected = withoutApart(inputs);
+    const MapInputs connected = withoutDisconnected(inputs);
     makeWritableFolder(out_folder);
     Maps maps;
     const std::size_t found = addSessions(maps, connected, options);

@@ -28,7 +28,7 @@ void checkInputs(const MapInputs& inputs) {
     }
 }
 
-MapInputs withoutApart(const MapInputs& inputs) {
+MapInputs withoutDisconnected(const MapInputs& inputs) {
     MapInputs result = inputs;
     result.disconnected.clear();
     result.keyframes.clear();

@@ -413,7 +413,7 @@ TEST(MapInputsOfParts, keyframesApartAreLeftOutAndTheRestCountedAnew) {
     inputs.loops = {{0, 6, 50}, {1, 3, 60}, {2, 5, 70}};
     inputs.earlier = {{"a", 2}, {"b", 3}};
     inputs.disconnected = {1, 4};
-    const MapInputs left = withoutApart(inputs);
+    const MapInputs left = withoutDisconnected(inputs);
     ASSERT_EQ(left.keyframes.size(), 5u);
     EXPECT_EQ(left.keyframes[1].stamp_s, 2);
     EXPECT_EQ(left.keyframes_before_loops[3].stamp_s, 5);

@@ -43,8 +43,8 @@ std::vector<std::size_t> sessionLengths(const MapInputs& inputs);
 /** \throws Error when there is no keyframe, or something names one that is not there */
 void checkInputs(const MapInputs& inputs);
 
-/** The inputs without the keyframes that are apart, the others counted anew. */
-MapInputs withoutApart(const MapInputs& inputs);
+/** The inputs without the disconnected keyframes, the others counted anew. */
+MapInputs withoutDisconnected(const MapInputs& inputs);
 
 /** All poses of the inputs in the frame a of T_a_world. */
 MapInputs transformed(const SE3& T_a_world, MapInputs inputs);
