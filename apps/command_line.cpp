@@ -61,17 +61,17 @@ std::string valueName(const CLI::Option& option, const std::string& type) {
                                                           {"goal", "X,Y"},
                                                           {"start", "X,Y,PHI"},
                                                           {"size", "WIDTHxHEIGHT"},
-                                                          {"grid", "METRES"},
-                                                          {"octree", "METRES"},
-                                                          {"points", "METRES"},
-                                                          {"mesh", "METRES"},
-                                                          {"z-min", "METRES"},
-                                                          {"z-max", "METRES"},
-                                                          {"voxel", "METRES"},
-                                                          {"tolerance", "METRES"},
-                                                          {"max-range", "METRES"},
-                                                          {"max-depth", "METRES"},
-                                                          {"complete-within", "METRES"},
+                                                          {"grid", "METERS"},
+                                                          {"octree", "METERS"},
+                                                          {"points", "METERS"},
+                                                          {"mesh", "METERS"},
+                                                          {"z-min", "METERS"},
+                                                          {"z-max", "METERS"},
+                                                          {"voxel", "METERS"},
+                                                          {"tolerance", "METERS"},
+                                                          {"max-range", "METERS"},
+                                                          {"max-depth", "METERS"},
+                                                          {"complete-within", "METERS"},
                                                           {"max-incidence", "DEGREES"},
                                                           {"registration-error", "PIXELS"},
                                                           {"offset", "SECONDS"},
@@ -80,7 +80,7 @@ std::string valueName(const CLI::Option& option, const std::string& type) {
                                                           {"to", "SECONDS"},
                                                           {"plot-distribution", "FILE"},
                                                           {"scans", "PER_SECOND"},
-                                                          {"depth-units", "PER_METRE"}};
+                                                          {"depth-units", "PER_METER"}};
     for (const std::string& name : option.get_lnames()) {
         const auto found = known.find(name);
         if (found != known.end()) return found->second;

@@ -64,7 +64,7 @@ void addRpe(CLI::App& app, RpeRequest& request) {
                   positive());
     declareChoice(command, "--delta-unit", options.unit,
                   {{"s", DeltaUnit::Seconds},
-                   {"m", DeltaUnit::Metres},
+                   {"m", DeltaUnit::Meters},
                    {"rad", DeltaUnit::Radians},
                    {"deg", DeltaUnit::Degrees},
                    {"f", DeltaUnit::Frames}},
@@ -125,7 +125,7 @@ void addPointCloud(CLI::App& app, PointCloudRequest& request, std::vector<std::s
         ->capture_default_str();
     command
         .add_option("--depth-units", request.depth_units,
-                    "Depth units a metre; default: the camera's")
+                    "Depth units a meter; default: the camera's")
         ->check(positive());
     declareNumber(command, "--max-difference", request.max_difference_s,
                   "Stamps further apart are no pair, s", positive());

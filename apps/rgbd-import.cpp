@@ -85,7 +85,7 @@ void declareCalibration(CLI::App& app, Arguments& args) {
         "the layout's, else inferred from the folder's name");
     app.add_option(
            "--depth-units", args.depth_units,
-           "Depth units per metre (1000 for millimetres, 5000 for TUM); default: the camera "
+           "Depth units per meter (1000 for millimeters, 5000 for TUM); default: the camera "
            "file's, else 5000")
         ->check(positive());
     app.add_option("--depth-scale", args.depth_scale,

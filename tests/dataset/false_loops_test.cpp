@@ -15,7 +15,7 @@ namespace {
 
 constexpr int keyframes_between = 10, least_gap = 30;
 
-/** Says that a keyframe stands within half a metre of one that it has never been near to in time.
+/** Says that a keyframe stands within half a meter of one that it has never been near to in time.
  */
 PoseEdge falseLoop(const VisualSlam& slam, int keyframe) {
     PoseEdge loop = slam.odometryEdge(keyframe);  // as sure as tracking is

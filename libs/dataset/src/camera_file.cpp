@@ -201,7 +201,7 @@ class CameraFile {
 std::string poseText(const SE3& T) {
     const mrpt::poses::CPose3D pose = toCPose3D(T);
     std::string text = "[";
-    for (const double metres : {pose.x(), pose.y(), pose.z()}) text += shortest(metres) + " ";
+    for (const double meters : {pose.x(), pose.y(), pose.z()}) text += shortest(meters) + " ";
     for (const double rad : {pose.yaw(), pose.pitch()}) text += shortest(rad * 180 / M_PI) + " ";
     return text + shortest(pose.roll() * 180 / M_PI) + "]";
 }

@@ -122,16 +122,16 @@ cv::Mat CompressedDepth::decoded() const {
 }
 
 cv::Mat CompressedDepth::inMetres(const cv::Mat& values) const {
-    cv::Mat1f metres(values.size(), 0.0F);
+    cv::Mat1f meters(values.size(), 0.0F);
     for (int v = 0; v < values.rows; ++v) {
         for (int u = 0; u < values.cols; ++u) {
             const auto value = values.at<std::uint16_t>(v, u);
             if (value == 0) continue;
             const float depth = quantum_a_ / (static_cast<float>(value) - quantum_b_);
-            if (std::isfinite(depth) && depth > 0) metres(v, u) = depth;
+            if (std::isfinite(depth) && depth > 0) meters(v, u) = depth;
         }
     }
-    return metres;
+    return meters;
 }
 
 }  // namespace rgbd_graphslam

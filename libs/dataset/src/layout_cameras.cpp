@@ -11,7 +11,7 @@ namespace rgbd_graphslam {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr double millimetres = 1000;
+constexpr double millimeters = 1000;
 
 CameraSetup pinhole(const std::string& name, double fx, double fy, double cx, double cy,
                     double depth_units) {
@@ -69,7 +69,7 @@ std::optional<CameraSetup> layoutCamera(const RgbdSequence& sequence, SequenceLa
         case SequenceLayout::Icl:
             return pinhole("icl", 481.2, 480, 319.5, 239.5, 5000);
         case SequenceLayout::SevenScenes:
-            return pinhole("7-scenes", 585, 585, 320, 240, millimetres);
+            return pinhole("7-scenes", 585, 585, 320, 240, millimeters);
         case SequenceLayout::Bonn:
             return bonnCamera();
         case SequenceLayout::Eth3d:

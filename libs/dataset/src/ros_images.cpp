@@ -111,10 +111,10 @@ cv::Size sizeOfJpeg(std::string_view bytes) {
     return {};
 }
 
-cv::Mat1w inUnits(const cv::Mat& metres, double units) {
-    cv::Mat1w depth(metres.size());
+cv::Mat1w inUnits(const cv::Mat& meters, double units) {
+    cv::Mat1w depth(meters.size());
     for (int v = 0; v < depth.rows; ++v) {
-        const auto* from = metres.ptr<float>(v);
+        const auto* from = meters.ptr<float>(v);
         auto* to = depth.ptr<std::uint16_t>(v);
         for (int u = 0; u < depth.cols; ++u) {
             const double value = std::round(static_cast<double>(from[u]) * units);
@@ -125,11 +125,11 @@ cv::Mat1w inUnits(const cv::Mat& metres, double units) {
     return depth;
 }
 
-double largestOf(const cv::Mat& metres) {
+double largestOf(const cv::Mat& meters) {
     double largest = 0;
-    for (int v = 0; v < metres.rows; ++v) {
-        for (int u = 0; u < metres.cols; ++u) {
-            const float value = metres.at<float>(v, u);
+    for (int v = 0; v < meters.rows; ++v) {
+        for (int u = 0; u < meters.cols; ++u) {
+            const float value = meters.at<float>(v, u);
             if (std::isfinite(value)) largest = std::max<double>(largest, value);
         }
     }
@@ -195,9 +195,9 @@ ImageFile colorFileOf(const CompressedImage& image) {
 }
 
 cv::Mat1w depthOf(const Image& image, double units) {
-    const bool metres = lowerCase(image.encoding) == "32fc1";
-    const cv::Mat pixels = pixelsOf(image, metres ? CV_32FC1 : CV_16UC1);
-    if (!metres) return pixels;
+    const bool meters = lowerCase(image.encoding) == "32fc1";
+    const cv::Mat pixels = pixelsOf(image, meters ? CV_32FC1 : CV_16UC1);
+    if (!meters) return pixels;
     return inUnits(pixels, units);
 }
 
@@ -216,8 +216,8 @@ ImageFile depthFileOf(const CompressedImage& image, double units) {
 }
 
 double largestDepth(const Image& image) {
-    const bool metres = lowerCase(image.encoding) == "32fc1";
-    return metres ? largestOf(pixelsOf(image, CV_32FC1)) : 0;
+    const bool meters = lowerCase(image.encoding) == "32fc1";
+    return meters ? largestOf(pixelsOf(image, CV_32FC1)) : 0;
 }
 
 double largestDepth(const CompressedImage& image) {

@@ -36,7 +36,7 @@ ImageFile colorFileOf(const Image& image);
 ImageFile colorFileOf(const CompressedImage& image);
 
 /** Depth in integer units; readings that are not finite or do not fit are 0.
- *  \param units per metre, for floating-point depth; integers keep their values */
+ *  \param units per meter, for floating-point depth; integers keep their values */
 cv::Mat1w depthOf(const Image& image, double units);
 ImageFile depthFileOf(const Image& image, double units);
 ImageFile depthFileOf(const CompressedImage& image, double units);

@@ -23,7 +23,7 @@ namespace rgbd_graphslam {
 namespace fs = std::filesystem;
 namespace {
 
-/** Units per metre of floating-point depth as it is stored: the TUM benchmark's, and ROS's for what
+/** Units per meter of floating-point depth as it is stored: the TUM benchmark's, and ROS's for what
  *  these cannot hold. */
 constexpr double fine_units = 5000, coarse_units = 1000, most_reading = 65535;
 /** A lens fit worse than this is told, px. */
@@ -166,7 +166,7 @@ class SequenceOfBag {
             }
         }
         char units[48];
-        std::snprintf(units, sizeof units, "%g units per metre", *sequence_.depth_units);
+        std::snprintf(units, sizeof units, "%g units per meter", *sequence_.depth_units);
         sequence_.notes.push_back("depth: " + describe(survey_, depth) + ", " + units + "; " + how);
     }
 

@@ -13,7 +13,7 @@ using Points = std::vector<Eigen::Vector3d>;
 void check(const PlyModel& map, const MapAccuracyOptions& options) {
     if (map.vertices.empty()) throw Error("the map holds no points", "give another");
     if (!(options.completeness_distance_m > 0) || !(options.sample_spacing_m > 0)) {
-        throw Error("the distances of a map's evaluation must be positive", "give metres");
+        throw Error("the distances of a map's evaluation must be positive", "give meters");
     }
 }
 

@@ -13,7 +13,7 @@ class PointTree {
     explicit PointTree(const std::vector<Eigen::Vector3d>& points);
     ~PointTree();
 
-    /** In metres. */
+    /** In meters. */
     double distanceTo(const Eigen::Vector3d& p) const;
 
   private:

@@ -42,7 +42,7 @@ Gnuplot::Rows differenceRows(const AteResult& result, Projection project) {
     return rows;
 }
 
-/** Of everything that is drawn, in metres. */
+/** Of everything that is drawn, in meters. */
 struct Extent {
     double min_across = INFINITY, max_across = -INFINITY, min_up = INFINITY, max_up = -INFINITY;
 

@@ -13,7 +13,7 @@ class TriangleTree {
     /** \param mesh with a triangle or more; must outlive the tree */
     explicit TriangleTree(const PlyModel& mesh);
 
-    /** Exact distance in metres of a point to the nearest triangle. */
+    /** Exact distance in meters of a point to the nearest triangle. */
     double distanceTo(const Eigen::Vector3d& p) const;
 
   private:

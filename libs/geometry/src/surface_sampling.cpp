@@ -24,14 +24,14 @@ std::vector<Triangle> trianglesOf(const PlyModel& surface) {
     return triangles;
 }
 
-/** A surface in millimetres would take days. */
+/** A surface in millimeters would take days. */
 void checkArea(const std::vector<Triangle>& triangles, double spacing_m) {
     constexpr double most_samples = 1e9;
     double area = 0;
     for (const auto& [a, b, c] : triangles) area += (b - a).cross(c - a).norm() / 2;
     if (!(area / spacing_m / spacing_m < most_samples)) {
-        throw Error("the surface measures " + std::to_string(area) + " square metres",
-                    "give one in metres");
+        throw Error("the surface measures " + std::to_string(area) + " square meters",
+                    "give one in meters");
     }
 }
 

@@ -50,7 +50,7 @@ std::optional<SurveyWarning> RecordingSurvey::unitsWarning() const {
     if (!units && !isImplausible(summary)) return std::nullopt;
     SurveyWarning warning;
     warning.refuses = isImplausible(summary);
-    warning.text = formatted("depth has a median of %.2f m with %.6g units per metre",
+    warning.text = formatted("depth has a median of %.2f m with %.6g units per meter",
                              summary.median_m, 1 / depth_unit_m_);
     if (units) {
         warning.text += formatted(

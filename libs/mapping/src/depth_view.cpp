@@ -26,7 +26,7 @@ void checkImage(const RgbdImage& image, const Camera& camera) {
     }
 }
 
-cv::Mat1f metres(const cv::Mat& raw, double unit_m, double nearest_m) {
+cv::Mat1f meters(const cv::Mat& raw, double unit_m, double nearest_m) {
     cv::Mat1f depth(raw.size());
     const auto unit = static_cast<float>(unit_m), nearest = static_cast<float>(nearest_m);
     for (int v = 0; v < raw.rows; ++v) {
@@ -123,7 +123,7 @@ cv::Mat1f RayTable::rectified(const cv::Mat1f& depth) const {
 cv::Mat1f cleanDepth(const RgbdImage& image, const Camera& camera, const MapOptions& options,
                      const DepthNoise& noise) {
     checkImage(image, camera);
-    const cv::Mat1f depth = metres(image.depth, image.depth_unit_m, options.min_range_m);
+    const cv::Mat1f depth = meters(image.depth, image.depth_unit_m, options.min_range_m);
     cv::Mat1f clean(depth.size());
     const EdgeFilter filter(options.edge_ratio, noise);
     for (int v = 0; v < depth.rows; ++v) filter.cleanRow(depth, v, clean[v]);

@@ -14,7 +14,7 @@ namespace {
 constexpr int margin_px = 40;
 constexpr double point_radius_m = 0.006, border_share = 0.07;
 
-/** Where metres are in the picture. */
+/** Where meters are in the picture. */
 class Paper {
   public:
     Paper(const Eigen::AlignedBox3d& box, int longer_side_px) {

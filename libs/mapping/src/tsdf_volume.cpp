@@ -144,7 +144,7 @@ int samplingStep(const Camera& camera, double block_m, double max_range_m) {
 }  // namespace
 
 TsdfVolume::TsdfVolume(double voxel_m) : voxel_m_(voxel_m) {
-    if (!(voxel_m > 0)) throw Error("the voxels of a mesh must have a size", "give metres");
+    if (!(voxel_m > 0)) throw Error("the voxels of a mesh must have a size", "give meters");
 }
 
 void TsdfVolume::insert(const SE3& T_world_cam, const DepthView& view) {

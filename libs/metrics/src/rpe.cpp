@@ -44,7 +44,7 @@ std::vector<double> placesOnPath(const Trajectory& path, DeltaUnit unit) {
     switch (unit) {
         case DeltaUnit::Seconds:
             return stampsOf(path);
-        case DeltaUnit::Metres:
+        case DeltaUnit::Meters:
             return sumsAlong(path, length);
         case DeltaUnit::Radians:
             return sumsAlong(path, angle);

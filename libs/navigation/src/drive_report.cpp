@@ -14,7 +14,7 @@ using mrpt::math::TPose2D;
 const cv::Scalar orange(20, 120, 240), blue(200, 90, 30), green(70, 150, 40), dark(60, 60, 60);
 constexpr int longer_side_px = 1400, margin_px = 20;
 
-/** The part of the grid that is known, enlarged, with metres on it. */
+/** The part of the grid that is known, enlarged, with meters on it. */
 class Paper {
   public:
     explicit Paper(const mrpt::maps::COccupancyGridMap2D& grid)

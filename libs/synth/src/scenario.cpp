@@ -48,7 +48,7 @@ Motion strollAround(const Vector3d& center, double radius_x, double radius_y, do
     return handHeld({eyes, seconds / count, true}, {targets, seconds / count, true}, {}, seed);
 }
 
-/** Control points of a walk and of its gaze, one pair every `spacing` metres. */
+/** Control points of a walk and of its gaze, one pair every `spacing` meters. */
 struct Walk {
     std::vector<Vector3d> eyes, targets;
 };

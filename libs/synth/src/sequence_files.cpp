@@ -129,7 +129,7 @@ void writeCameraIni(const std::string& folder, const Camera& camera, bool on_rob
 
 void writeSurface(const std::string& path, const Scene& scene) {
     writeStream(path, [&](std::ostream& out) {
-        out << "ply\nformat binary_little_endian 1.0\ncomment true surface, metres, z up\n"
+        out << "ply\nformat binary_little_endian 1.0\ncomment true surface, meters, z up\n"
             << "element vertex " << 4 * scene.quads.size()
             << "\nproperty float x\nproperty float y\nproperty float z\n"
             << "element face " << 2 * scene.quads.size()

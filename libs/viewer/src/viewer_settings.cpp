@@ -22,7 +22,7 @@ void ViewerSettings::describe(OptionVisitor& v) {
     v.flag("octree", octree, "Occupied cells of the octree");
     v.flag("free_space", free_space, "Free cells of the octree");
     v.flag("grid", grid, "2-D grid");
-    v.flag("floor", floor, "Lines every metre on the floor");
+    v.flag("floor", floor, "Lines every meter on the floor");
     v.flag("trajectory", trajectory, "Estimated trajectory");
     v.flag("truth", truth, "True trajectory");
     v.flag("errors", errors, "Lines from estimated to true positions");

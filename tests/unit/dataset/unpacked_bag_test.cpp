@@ -33,12 +33,12 @@ using ::testing::Not;
 constexpr int frames = 4;
 const std::string camera_frame = "/openni_rgb_optical_frame";
 
-/** Depth in metres as the benchmark's bags have it, without reading where the PNG has 0. */
+/** Depth in meters as the benchmark's bags have it, without reading where the PNG has 0. */
 cv::Mat inMetres(const cv::Mat& depth) {
-    cv::Mat1f metres;
-    depth.convertTo(metres, CV_32F, 1.0 / 5000);
-    metres.setTo(std::numeric_limits<float>::quiet_NaN(), depth == 0);
-    return metres;
+    cv::Mat1f meters;
+    depth.convertTo(meters, CV_32F, 1.0 / 5000);
+    meters.setTo(std::numeric_limits<float>::quiet_NaN(), depth == 0);
+    return meters;
 }
 
 cv::Mat inRgb(const cv::Mat& color) {
@@ -47,7 +47,7 @@ cv::Mat inRgb(const cv::Mat& color) {
     return rgb;
 }
 
-cv::Mat millimetres(int value) {
+cv::Mat millimeters(int value) {
     return {24, 32, CV_16UC1, cv::Scalar(value)};
 }
 
@@ -93,7 +93,7 @@ class Bag : public ::testing::Test {
     void addFrame(double stamp_s) {
         lines_.addImage("/camera/color/image_raw", "color", stamp_s, "bgr8",
                         small_sequence::color(0));
-        lines_.addImage("/camera/depth/image_raw", "color", stamp_s, "16UC1", millimetres(1500));
+        lines_.addImage("/camera/depth/image_raw", "color", stamp_s, "16UC1", millimeters(1500));
     }
 
     RgbdSequence read(const BagOptions& options = {}) {
@@ -209,13 +209,13 @@ TEST_F(Bag, millimetresKeepTheirValuesAndMetresThatAreFarFitIn) {
     const cv::Mat depth = cv::imread(
         unpacked.sequence().folder + "/" + unpacked.sequence().depth[0].file, cv::IMREAD_UNCHANGED);
     ASSERT_EQ(depth.type(), CV_16UC1);
-    EXPECT_EQ(cv::norm(depth, millimetres(20500), cv::NORM_INF), 0);
+    EXPECT_EQ(cv::norm(depth, millimeters(20500), cv::NORM_INF), 0);
 }
 
 TEST_F(Bag, compressedImagesKeepTheirBytes) {
     std::vector<unsigned char> jpeg, png;
     cv::imencode(".jpg", small_sequence::color(0), jpeg);
-    cv::imencode(".png", millimetres(1500), png);
+    cv::imencode(".png", millimeters(1500), png);
     const std::string settings(12, '\0');
     lines_.addCompressed("/c/image_raw/compressed", "c", 1, "rgb8;~jpeg~compressed~bgr8",
                          {jpeg.begin(), jpeg.end()});
@@ -235,9 +235,9 @@ TEST_F(Bag, colorIsChosenBeforeInfraredAndAlignedDepthBeforeRaw) {
     for (const double stamp_s : {1.0, 2.0}) {
         lines_.addImage("/camera/infra1/image_rect_raw", "ir", stamp_s, "mono8",
                         cv::Mat(24, 32, CV_8UC1, cv::Scalar(7)));
-        lines_.addImage("/camera/depth/image_rect_raw", "depth", stamp_s, "16UC1", millimetres(1));
+        lines_.addImage("/camera/depth/image_rect_raw", "depth", stamp_s, "16UC1", millimeters(1));
         lines_.addImage("/camera/aligned_depth_to_color/image_raw", "color", stamp_s, "16UC1",
-                        millimetres(2));
+                        millimeters(2));
         lines_.addImage("/camera/color/image_raw", "color", stamp_s, "rgb8",
                         small_sequence::color(0));
     }
@@ -344,7 +344,7 @@ class RawDepth : public Bag {
     void addStreams(const std::string& color, const std::string& depth, const std::string& frame,
                     const std::string& encoding) {
         lines_.addImage(color, "color", 1, "rgb8", small_sequence::color(0));
-        lines_.addImage(depth, frame, 1, encoding, millimetres(1500));
+        lines_.addImage(depth, frame, 1, encoding, millimeters(1500));
     }
 
     /** Where the depth camera lies in the color camera's optical frame. */

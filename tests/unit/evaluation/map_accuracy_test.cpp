@@ -16,7 +16,7 @@ PlyModel square() {
     return model;
 }
 
-/** Points every centimetre over [0, width] x [0, 1] at one height. */
+/** Points every centimeter over [0, width] x [0, 1] at one height. */
 PlyModel gridAt(float z, int width_cm = 100) {
     PlyModel model;
     for (int i = 0; i <= width_cm; ++i) {
@@ -109,9 +109,9 @@ TEST(MapAccuracy, findsTheNearestOfManyTriangles) {
 }
 
 TEST(MapAccuracy, refusesASurfaceThatIsNotInMetres) {
-    PlyModel millimetres = square();
-    for (auto& vertex : millimetres.vertices) vertex *= 1e6f;
-    EXPECT_THROW(evaluateMap(gridAt(0, 1), millimetres), Error);
+    PlyModel millimeters = square();
+    for (auto& vertex : millimeters.vertices) vertex *= 1e6f;
+    EXPECT_THROW(evaluateMap(gridAt(0, 1), millimeters), Error);
 }
 
 TEST(MapAccuracy, refusesAnEmptyMapAndDistancesThatAreNone) {

@@ -28,7 +28,7 @@ class Readings {
     SurfaceCells cells{voxel_m / 2};
 };
 
-/** A wall of 2 x 2 m that stands along the voxels, a centimetre before the side of theirs. */
+/** A wall of 2 x 2 m that stands along the voxels, a centimeter before the side of theirs. */
 Readings wallSeenFrom(double range_m, int readings_a_voxel) {
     constexpr int voxels = 40;
     std::mt19937 random(1);

@@ -51,7 +51,7 @@ TEST(AlignmentProperties, noScaleNearbyFitsBetter) {
     }
 }
 
-/** The path with errors of some centimetres. */
+/** The path with errors of some centimeters. */
 Trajectory estimateOf(Trajectory path, RandomInputs& random) {
     for (auto& pose : path) pose.T_world_cam.t += random.vector(0.05);
     return path;

@@ -51,7 +51,7 @@ TEST(Rpe, deltaInEachUnitPairsTheSamePoses) {
     const auto estimate = straight(0.5, 0.3), truth = straight(0.48, 0.3);
     const auto by_frames = evaluateRpe(estimate, truth, apart(5, DeltaUnit::Frames));
     for (const auto& options :
-         {apart(0.5, DeltaUnit::Seconds), apart(0.25, DeltaUnit::Metres),
+         {apart(0.5, DeltaUnit::Seconds), apart(0.25, DeltaUnit::Meters),
           apart(0.15, DeltaUnit::Radians), apart(0.15 * 180 / M_PI, DeltaUnit::Degrees)}) {
         const auto result = evaluateRpe(estimate, truth, options);
         ASSERT_EQ(result.errors.size(), by_frames.errors.size());

@@ -21,7 +21,7 @@ class Snapshot : public testing::Test {
     ~Snapshot() override { fs::remove_all(folder_); }
     std::string path(const char* name) const { return (folder_ / name).string(); }
 
-    /** A square metre of one color at a height. */
+    /** A square meter of one color at a height. */
     static PointMap sheet(float z, std::array<std::uint8_t, 3> rgb) {
         PointMap points;
         for (float x = -0.5f; x < 0.5f; x += 0.01f) {

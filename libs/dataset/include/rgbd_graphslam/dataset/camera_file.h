@@ -14,7 +14,7 @@ struct CameraSetup {
     /** "fr1", "fr2", "fr3", "ros" or the file it came from. */
     std::string name = "ros";
     Camera camera;
-    /** Depth of one unit is depth_scale / depth_units metres. */
+    /** Depth of one unit is depth_scale / depth_units meters. */
     double depth_units = 5000;
     /** Nobody stated depth_units: it is the default. */
     bool depth_units_assumed = false;
@@ -55,7 +55,7 @@ std::optional<Camera> resizedTo(const Camera& camera, int width, int height);
 /** Reads section `[CAMERA_PARAMS]` as `mrpt::img::TCamera::loadFromConfigFile` does: resolution,
  *  fx, fy, cx, cy (px), distortion_model, dist. `dist` without `distortion_model` counts as
  *  plumb_bob (MRPT would ignore it silently) and may be [k1 k2 p1 p2]. Further keys, all optional:
- * depth_units (a metre), depth_scale, sensor_pose and imu_pose as `[x y z yaw pitch roll]` in m and
+ * depth_units (a meter), depth_scale, sensor_pose and imu_pose as `[x y z yaw pitch roll]` in m and
  * degrees. \throws Error naming file and key for a missing, unknown or repeated key (also as `Fx`
  * beside `fx`, which MRPT takes for the same), a value out of range, a principal point outside the
  *          image, or a

@@ -13,7 +13,7 @@ namespace rgbd_graphslam {
 class DepthRegistration {
   public:
     /** \param T_color_depth from the depth camera's optical frame to the color camera's
-     *  \param unit_m metres a unit of depth */
+     *  \param unit_m meters a unit of depth */
     DepthRegistration(const Camera& depth, const Camera& color, const SE3& T_color_depth,
                       double unit_m);
 

@@ -19,7 +19,7 @@ struct OdometryVerdict : SensorVerdict {
  *  as such.
  *  \param readings x, y (m), heading (rad, in any turn)
  *  \param base poses of the robot's base: x forward, y left, z up
- *  \param depth_units of the recording's depth images, per metre
+ *  \param depth_units of the recording's depth images, per meter
  *  \return a fault only where another hypothesis explains the readings far better */
 OdometryVerdict checkOdometry(const std::vector<StampedVector>& readings,
                               const TrackedStretches& base, double depth_units);

@@ -48,7 +48,7 @@ struct RgbdSequence {
     /** Calibration that came with the recording: of the color camera, and of the depth camera
      *  where depth is not registered to color. */
     std::optional<CameraSetup> camera, depth_camera;
-    /** Depth units per metre, where the recording itself tells them. */
+    /** Depth units per meter, where the recording itself tells them. */
     std::optional<double> depth_units;
     /** What was found, chosen and left out, a line each; told at the end of the import. */
     std::vector<std::string> notes;

@@ -54,7 +54,7 @@ struct PointCloudRequest {
     std::string color, depth, pairs, trajectory;
     std::string output;
     std::string camera = "ros";  // a name or a file
-    double depth_units = 0;      // a metre; 0: the camera's
+    double depth_units = 0;      // a meter; 0: the camera's
     double max_difference_s = 0.02;
     std::size_t every_image = 1;
     PointCloudOptions options;

@@ -37,7 +37,7 @@ struct MapAccuracy {
  *  multi-view stereo reconstruction algorithms", CVPR 2006.
  *  \param surface triangles, or points that sample it densely
  *  \throws Error for an option that is not positive a map without points, or a surface too large to
- *          be one in metres */
+ *          be one in meters */
 MapAccuracy evaluateMap(const PlyModel& map, const PlyModel& surface,
                         const MapAccuracyOptions& options = {});
 

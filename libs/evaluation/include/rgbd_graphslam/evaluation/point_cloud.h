@@ -57,7 +57,7 @@ std::vector<PosedImageFiles> posedImages(const std::string& color_list,
 std::vector<PosedImageFiles> posedImages(const std::string& pair_list, const Trajectory& trajectory,
                                          double max_difference_s);
 
-/** \param depth_unit_m metres a unit of the depth image
+/** \param depth_unit_m meters a unit of the depth image
  *  \throws Error naming the file when one cannot be read, depth is not 16-bit or sizes differ */
 RgbdImage readRgbdImage(const std::string& color, const std::string& depth, double depth_unit_m);
 

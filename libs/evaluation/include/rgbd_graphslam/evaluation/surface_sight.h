@@ -31,7 +31,7 @@ class SurfaceSight {
 
     /** Whether one of the views shows this place of the surface: within range, and seen steeply
      *  enough, and no triangle stands before it.
-     *  \param p on the surface, give or take a millimetre */
+     *  \param p on the surface, give or take a millimeter */
     bool sees(const Eigen::Vector3d& p) const;
 
   private:

@@ -30,7 +30,7 @@ class FrameBuilder {
 
 /** Depth at a pixel from its 3x3 neighborhood: the mean of the readings that belong to the nearest
  *  surface there, so that a keypoint on a depth edge takes the foreground.
- *  \param depth CV_16UC1; \param depth_unit_m metres a unit
+ *  \param depth CV_16UC1; \param depth_unit_m meters a unit
  *  \return m; 0 when there are too few readings or they lie outside the believed range */
 float foregroundDepth(const cv::Mat& depth, double depth_unit_m, float u, float v,
                       const FeatureOptions& options);

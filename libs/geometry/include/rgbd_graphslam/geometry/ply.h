@@ -8,7 +8,7 @@
 
 namespace rgbd_graphslam {
 
-/** In metres; without triangles a cloud of points. */
+/** In meters; without triangles a cloud of points. */
 struct PlyModel {
     std::vector<Eigen::Vector3f> vertices;
     /** Of unit length; as many as vertices, or none. */

@@ -31,7 +31,7 @@ bool anyBetween(const std::vector<double>& stamps_s, double from_s, double to_s)
  */
 std::vector<Trajectory> pieces(const Trajectory& poses, const std::vector<std::size_t>& lengths);
 
-/** Reads `stamp tx ty tz qx qy qz qw` lines (seconds, metres, unit quaternion), the format of the
+/** Reads `stamp tx ty tz qx qy qz qw` lines (seconds, meters, unit quaternion), the format of the
  *  TUM RGB-D benchmark; commas and tabs separate as blanks do, `#` starts a comment. Rows with NaN
  *  are left out as TUM's tools do.
  *  \throws Error naming file and line for anything else, or when no pose is left */
@@ -40,7 +40,7 @@ Trajectory readTumTrajectory(const std::string& path);
 /** The same poses in the order of their lines. */
 Trajectory readTumPoses(const std::string& path);
 
-/** The text of readTumTrajectory's format: stamps to the microsecond, metres and quaternions to
+/** The text of readTumTrajectory's format: stamps to the microsecond, meters and quaternions to
  *  nine decimals. */
 std::string toTumText(const Trajectory& trajectory);
 

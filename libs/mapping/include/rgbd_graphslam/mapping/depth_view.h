@@ -33,7 +33,7 @@ class RayTable {
     std::vector<int> rectified_from_;  // pixel index or -1; empty without distortion
 };
 
-/** Readings in metres along z, 0 where there is none or where it cannot be trusted: nearer than
+/** Readings in meters along z, 0 where there is none or where it cannot be trusted: nearer than
  *  min_range_m, or "flying" between the two sides of a depth edge. Readings beyond max_range_m
  *  stay, for they tell that the space before them is free.
  *  \throws Error when the image is not 16 bit or of another size than the camera's */

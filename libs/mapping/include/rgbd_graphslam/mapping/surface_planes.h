@@ -19,7 +19,7 @@ struct Plane {
 };
 
 /** Tells voxels that hold surface from those beside them that noise spilled into: a single reading
- *  errs by centimetres, the plane through what all views read about a place does not. */
+ *  errs by centimeters, the plane through what all views read about a place does not. */
 class SurfacePlanes {
   public:
     /** \param cells of half a voxel's edge; must outlive this */

@@ -8,7 +8,7 @@
 
 namespace rgbd_graphslam {
 
-/** Counts cells of half a metre before the cameras. Maps grow with the space that was seen rather
+/** Counts cells of half a meter before the cameras. Maps grow with the space that was seen rather
  *  than with the number of keyframes, so the memory of a part tells that of the whole. */
 class ViewCoverage {
   public:

@@ -22,7 +22,7 @@ enum class AlignmentScale { Fixed, Fitted };
 
 /** The least-squares motion of Umeyama, "Least-squares estimation of transformation parameters
  *  between two point patterns", TPAMI 1991 (with a fixed scale the same as Horn's and Arun's).
- *  \param from, to 3xN positions in metres, column by column of one another, N >= 2
+ *  \param from, to 3xN positions in meters, column by column of one another, N >= 2
  *  \throws Error for fewer than two points or, when the scale is asked for, for points of `from`
  *          that all coincide */
 Similarity alignPoints(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to,

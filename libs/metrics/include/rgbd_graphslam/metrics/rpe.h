@@ -11,9 +11,9 @@
 
 namespace rgbd_graphslam {
 
-/** What the distance between the two poses of a pair is measured in; metres, radians and degrees
+/** What the distance between the two poses of a pair is measured in; meters, radians and degrees
  *  are summed along the path of the estimate. */
-enum class DeltaUnit { Seconds, Metres, Radians, Degrees, Frames };
+enum class DeltaUnit { Seconds, Meters, Radians, Degrees, Frames };
 
 struct RpeOptions : EstimateOptions {
     /** Pairs `delta` apart; otherwise all pairs, in which `delta` has no say. */

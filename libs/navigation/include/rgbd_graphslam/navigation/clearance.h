@@ -25,7 +25,7 @@ class TrueObstacles {
     struct Slab {
         std::vector<Eigen::Vector2d> outline;
         double radius_m;                      // of the outline
-        std::vector<Eigen::Vector2f> points;  // one a square centimetre
+        std::vector<Eigen::Vector2f> points;  // one a square centimeter
     };
     std::vector<Slab> slabs_;
 };

@@ -17,7 +17,7 @@ struct ChartLine {
     std::vector<Eigen::Vector2d> points;
 };
 
-/** Ground plan: x to the right and y up in metres, both with one scale; a grid tells the size.
+/** Ground plan: x to the right and y up in meters, both with one scale; a grid tells the size.
  * Lines of one point or none are left out. */
 std::string planChart(const std::vector<ChartLine>& lines);
 

@@ -14,7 +14,7 @@ struct Opening {
     double height_m = 2.1;
 };
 
-/** Ground plan of a room, metres. */
+/** Ground plan of a room, meters. */
 struct Floor {
     double min_x = 0, max_x = 1, min_y = 0, max_y = 1;
     double height = 2.7;

@@ -25,7 +25,7 @@ class Renderer {
      *  \return CV_8UC3, BGR; pixel (u, v) sees the ray of camera.unproject(u, v, 1) */
     cv::Mat color(const SE3& T_world_cam, const Eigen::Vector2d& shift_px = {0, 0});
 
-    /** \return CV_32FC1, metres along the optical axis; 0 where nothing is seen. Exact to
+    /** \return CV_32FC1, meters along the optical axis; 0 where nothing is seen. Exact to
      *  0.02 mm: it is coded into the colors, because MRPT's own depth comes from a buffer of
      *  16 bits (up to 1 mm off at 4 m). */
     cv::Mat depth(const SE3& T_world_cam, const Eigen::Vector2d& shift_px = {0, 0});

@@ -1,4 +1,4 @@
-/** What there is to be seen: textured quadrilaterals, in metres, z up, floor at z = 0. */
+/** What there is to be seen: textured quadrilaterals, in meters, z up, floor at z = 0. */
 #pragma once
 #include <Eigen/Core>
 #include <array>
