@@ -91,16 +91,27 @@ std::vector<PoseEdge> KeyframeEdges::covisibility(const PoseEdge& odometry) cons
     return edges;
 }
 
+/** All edges from earlier keyframes that one keyframe has. They share its measurements, and those
+ * of its neighbors share most landmarks: m edges a keyframe, over 1 to m keyframes each, would make
+ * the chain m^2/3 times as stiff as one independent measurement per m keyframes, which is what
+ * there is. */
+std::vector<PoseEdge> KeyframeEdges::edgesTo(int keyframe) const {
+    std::vector<PoseEdge> edges{odometry(keyframe)};
+    const std::vector<PoseEdge> farther = covisibility(edges.front());
+    edges.insert(edges.end(), farther.begin(), farther.end());
+    const double m = static_cast<double>(edges.size());
+    for (PoseEdge& edge : edges) edge.information *= std::min(1.0, 3 / (m * m));
+    return edges;
+}
+
 PoseGraph KeyframeEdges::graph(const std::vector<PoseEdge>& loops) const {
     PoseGraph graph;
     const int keyframes = static_cast<int>(map_.keyframes().size());
     for (int k = 0; k < keyframes; ++k) graph.nodes.push_back(map_.T_cam_world(k).inverse());
     graph.fixed = map_.fixedCount();
     for (int k = std::max(1, graph.fixed); k < keyframes; ++k) {
-        const PoseEdge last_to_k = odometry(k);
-        graph.edges.push_back(last_to_k);
-        const std::vector<PoseEdge> farther = covisibility(last_to_k);
-        graph.edges.insert(graph.edges.end(), farther.begin(), farther.end());
+        const std::vector<PoseEdge> edges = edgesTo(k);
+        graph.edges.insert(graph.edges.end(), edges.begin(), edges.end());
     }
     graph.edges.insert(graph.edges.end(), loops.begin(), loops.end());
     return graph;

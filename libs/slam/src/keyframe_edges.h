@@ -32,6 +32,7 @@ class KeyframeEdges {
     bool follows(int keyframe) const;
     std::vector<Covisibility> fartherThanLast(int keyframe) const;
     std::vector<PoseEdge> covisibility(const PoseEdge& odometry) const;
+    std::vector<PoseEdge> edgesTo(int keyframe) const;
     std::vector<int> sharedLandmarks(int keyframe, int other) const;
     Matrix6d informationOf(int keyframe, const std::vector<int>& landmarks) const;
 
