@@ -2,12 +2,13 @@
 #include <benchmark/benchmark.h>
 
 #include "../unit/slam/synthetic_world.h"
-#include "rgbd_graphslam/slam/bundle_adjustment.h"
-#include "rgbd_graphslam/slam/global_adjustment.h"
+#include "rgbd_graphslam/estimation/bundle_adjustment.h"
+#include "rgbd_graphslam/estimation/global_adjustment.h"
+#include "rgbd_graphslam/estimation/pose_graph.h"
+#include "rgbd_graphslam/estimation/pose_solver.h"
+#include "rgbd_graphslam/slam/keypoint_measurement.h"
 #include "rgbd_graphslam/slam/matcher.h"
 #include "rgbd_graphslam/slam/place_index.h"
-#include "rgbd_graphslam/slam/pose_graph.h"
-#include "rgbd_graphslam/slam/pose_solver.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -118,21 +119,22 @@ BundleProblem bundle() {
     constexpr int cameras = 12, points = 1000;
     SyntheticWorld random(1, 11);
     BundleProblem problem;
-    problem.free_cameras = cameras - 2;
+    problem.free_keyframes = cameras - 2;
     std::vector<SE3> truth;
     for (int c = 0; c < cameras; ++c) {
         truth.emplace_back(rotationExp({0.01 * c, 0.03 * c, 0}),
                            Eigen::Vector3d(0.06 * c, 0, 0.03 * c));
-        const bool free = c < problem.free_cameras;
-        problem.T_cam_world.push_back(truth[c].retract(smallMotion(random, free ? 0.005 : 0)));
+        const bool free = c < problem.free_keyframes;
+        problem.states.keyframes.push_back(
+            {truth[c].retract(smallMotion(random, free ? 0.005 : 0)), {}});
     }
     for (int p = 0; p < points; ++p) {
         const Eigen::Vector3d point(random.uniform(-1, 1), random.uniform(-0.7, 0.7),
                                     random.uniform(1.5, 4));
-        problem.points.push_back(
+        problem.states.points.push_back(
             point + 0.01 * Eigen::Vector3d(random.gauss(), random.gauss(), random.gauss()));
         for (int c = p % 2; c < cameras; c += 2) {
-            const Keypoint k = noisyKeypoint(random, problem.camera, truth[c] * point);
+            const Keypoint k = noisyKeypoint(random, problem.cameras[0].camera(), truth[c] * point);
             problem.observations.push_back({c, p, measurementOf(k, 1, SensorOptions())});
         }
     }

@@ -16,6 +16,10 @@ class RandomInputs {
     double uniform(double from, double to) {
         return from + (to - from) * (generator_() + 0.5) / 4294967296.0;
     }
+    /** Normally distributed with mean 0 and standard deviation 1. */
+    double gauss() {
+        return std::sqrt(-2 * std::log(uniform(0, 1))) * std::cos(2 * M_PI * uniform(0, 1));
+    }
     int index(int count) { return static_cast<int>(uniform(0, count)); }
 
     Eigen::Vector3d vector(double magnitude) {

@@ -2,8 +2,8 @@
 #pragma once
 #include <optional>
 
+#include "rgbd_graphslam/estimation/pose_graph.h"
 #include "rgbd_graphslam/metrics/ate.h"
-#include "rgbd_graphslam/slam/pose_graph.h"
 
 namespace rgbd_graphslam {
 

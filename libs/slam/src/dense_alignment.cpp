@@ -4,7 +4,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
-#include "rgbd_graphslam/slam/robust_kernel.h"
+#include "rgbd_graphslam/estimation/robust_kernel.h"
 
 namespace rgbd_graphslam {
 namespace {

@@ -1,6 +1,6 @@
 #include "rgbd_graphslam/slam/global_bundle_adjuster.h"
 
-#include "rgbd_graphslam/slam/global_adjustment.h"
+#include "rgbd_graphslam/estimation/global_adjustment.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
 
 namespace rgbd_graphslam {

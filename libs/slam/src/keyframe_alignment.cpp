@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "rgbd_graphslam/slam/keypoint_measurement.h"
 #include "rgbd_graphslam/slam/matcher.h"
 #include "rgbd_graphslam/slam/ransac_alignment.h"
 
@@ -70,7 +71,7 @@ std::optional<LocatedFrame> alignWithKeyframe(const Frame& frame, const Keyframe
                       static_cast<std::uint64_t>(keyframe.id));
     if (!aligned || aligned->inliers < fewest_aligned) return std::nullopt;
     LocatedFrame located;
-    located.T_cam_world = solvePose(camera, found.matches, aligned->T_cam_world).T_cam_world;
+    located.T_cam_world = solvePose(camera, found.matches, aligned->T_cam_world).T_body_world;
     located.landmarks.assign(frame.keypoints.size(), no_landmark);
     for (std::size_t m = 0; m < found.matches.size(); ++m) {
         if (aligned->inlier[m]) located.landmarks[found.keypoints[m]] = found.landmarks[m];

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "rgbd_graphslam/slam/pose_solver.h"
+#include "rgbd_graphslam/estimation/pose_solver.h"
 #include "rgbd_graphslam/slam/tracker.h"
 
 namespace rgbd_graphslam {

@@ -3,8 +3,8 @@
 #include <utility>
 #include <vector>
 
+#include "rgbd_graphslam/estimation/pose_graph.h"
 #include "rgbd_graphslam/geometry/camera.h"
-#include "rgbd_graphslam/slam/pose_graph.h"
 #include "rgbd_graphslam/slam/slam_map.h"
 #include "rgbd_graphslam/slam/slam_options.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <unordered_map>
 
-#include "rgbd_graphslam/slam/reprojection.h"
+#include "rgbd_graphslam/estimation/reprojection.h"
 
 namespace rgbd_graphslam {
 namespace {

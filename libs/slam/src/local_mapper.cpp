@@ -3,7 +3,8 @@
 #include <algorithm>
 
 #include "projected_search.h"
-#include "rgbd_graphslam/slam/bundle_adjustment.h"
+#include "rgbd_graphslam/estimation/bundle_adjustment.h"
+#include "rgbd_graphslam/slam/keypoint_measurement.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
 #include "rgbd_graphslam/slam/triangulation.h"
 

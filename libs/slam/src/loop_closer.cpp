@@ -111,7 +111,7 @@ std::optional<VerifiedLoop> LoopCloser::verify(int keyframe, int candidate) {
         alignWithKeyframe(frame, map_.keyframe(candidate), map_, camera_, options_);
     if (!aligned) return std::nullopt;
     const auto located = verifier_.trackLocalMap(frame, aligned->T_cam_world, aligned->landmarks,
-                                                 PoseKernel::GemanMcClure);
+                                                 KernelShape::GemanMcClure);
     if (!located || located->inliers < options_.loops.min_inliers) return std::nullopt;
     const auto matches = matchesOf(frame, located->landmarks, map_, options_.sensor);
     VerifiedLoop loop;

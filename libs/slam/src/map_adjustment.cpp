@@ -3,13 +3,14 @@
 #include <algorithm>
 
 #include "rgbd_graphslam/core/thread_clock.h"
+#include "rgbd_graphslam/slam/keypoint_measurement.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
 
 namespace rgbd_graphslam {
 namespace {
 
 void put(const BundleObservation& o, ByteWriter& out) {
-    out.putCount(o.camera);
+    out.putCount(o.keyframe);
     out.putCount(o.point);
     const Measurement& m = o.measurement;
     for (const double x : {m.u, m.v, m.inverse_depth, m.weight_px, m.weight_depth}) out.put(x);
@@ -17,8 +18,8 @@ void put(const BundleObservation& o, ByteWriter& out) {
 
 BundleObservation getObservation(ByteReader& in, const BundleProblem& problem) {
     BundleObservation o;
-    o.camera = getIndex(in, problem.T_cam_world.size(), "camera");
-    o.point = getIndex(in, problem.points.size(), "point");
+    o.keyframe = getIndex(in, problem.states.keyframes.size(), "keyframe");
+    o.point = getIndex(in, problem.states.points.size(), "point");
     Measurement& m = o.measurement;
     for (double* x : {&m.u, &m.v, &m.inverse_depth, &m.weight_px, &m.weight_depth}) {
         *x = getFinite(in);
@@ -34,17 +35,17 @@ MapAdjustment::MapAdjustment(const SlamMap& map, const Camera& camera, const Sen
     : keyframes_(std::move(free)),
       landmarks_(std::move(landmarks)),
       keyframes_in_map_(static_cast<int>(map.keyframes().size())) {
-    problem.camera = camera;
-    problem.free_cameras = static_cast<int>(keyframes_.size());
+    problem.cameras = {MountedCamera(camera)};
+    problem.free_keyframes = static_cast<int>(keyframes_.size());
     keyframes_.insert(keyframes_.end(), fixed.begin(), fixed.end());
     std::vector<int> camera_of(map.keyframes().size(), -1);
     for (std::size_t c = 0; c < keyframes_.size(); ++c) {
         camera_of[keyframes_[c]] = static_cast<int>(c);
-        problem.T_cam_world.push_back(map.keyframe(keyframes_[c]).T_cam_world);
+        problem.states.keyframes.push_back({map.keyframe(keyframes_[c]).T_cam_world, {}});
     }
     for (std::size_t p = 0; p < landmarks_.size(); ++p) {
         const Landmark& landmark = map.landmark(landmarks_[p]);
-        problem.points.push_back(landmark.position);
+        problem.states.points.push_back(landmark.position);
         for (const Observation& o : landmark.observations) {
             if (camera_of[o.keyframe] < 0) continue;
             const Keypoint& k = map.keyframe(o.keyframe).frame.keypoints[o.keypoint];
@@ -61,12 +62,13 @@ bool MapAdjustment::isStill(int landmark, const SlamMap& map) const {
 }
 
 void MapAdjustment::apply(SlamMap& map) const {
-    for (int c = 0; c < problem.free_cameras; ++c) {
-        moveUnadjusted(keyframes_[c], problem.T_cam_world[c], map);
-        map.setPose(keyframes_[c], problem.T_cam_world[c]);
+    for (int c = 0; c < problem.free_keyframes; ++c) {
+        const SE3& T_cam_world = problem.states.keyframes[c].T_body_world;
+        moveUnadjusted(keyframes_[c], T_cam_world, map);
+        map.setPose(keyframes_[c], T_cam_world);
     }
     for (std::size_t p = 0; p < landmarks_.size(); ++p) {
-        if (isStill(landmarks_[p], map)) map.setPosition(landmarks_[p], problem.points[p]);
+        if (isStill(landmarks_[p], map)) map.setPosition(landmarks_[p], problem.states.points[p]);
     }
     for (std::size_t o = 0; o < problem.observations.size(); ++o) {
         const bool doubted = problem.observations[o].outlier;
@@ -92,8 +94,8 @@ void MapAdjustment::moveUnadjusted(int keyframe, const SE3& new_T_cam_world, Sla
 
 void MapAdjustment::carryYounger(SlamMap& map) const {
     const auto newest =
-        std::max_element(keyframes_.begin(), keyframes_.begin() + problem.free_cameras);
-    const SE3& T_cam_world = problem.T_cam_world[newest - keyframes_.begin()];
+        std::max_element(keyframes_.begin(), keyframes_.begin() + problem.free_keyframes);
+    const SE3& T_cam_world = problem.states.keyframes[newest - keyframes_.begin()].T_body_world;
     const SE3 motion = T_cam_world.inverse() * map.T_cam_world(*newest);
     const SE3 back = motion.inverse();
     for (std::size_t id = 0; id < map.landmarks().size(); ++id) {
@@ -112,9 +114,9 @@ void MapAdjustment::save(ByteWriter& out) const {
         putNumbers(*numbers, out);
     }
     out.putCount(keyframes_in_map_);
-    out.putCount(problem.free_cameras);
-    for (const SE3& pose : problem.T_cam_world) encodePose(pose, out);
-    for (const Eigen::Vector3d& point : problem.points) {
+    out.putCount(problem.free_keyframes);
+    for (const KeyframeState& k : problem.states.keyframes) encodePose(k.T_body_world, out);
+    for (const Eigen::Vector3d& point : problem.states.points) {
         for (const double x : {point.x(), point.y(), point.z()}) out.put(x);
     }
     for (const BundleObservation& o : problem.observations) put(o, out);
@@ -125,16 +127,16 @@ MapAdjustment::MapAdjustment(ByteReader& in, const SlamMap& map, const Camera& c
       landmarks_(getNumbers(in, map.landmarks().size())),
       observation_keyframe_(getNumbers(in, map.keyframes().size())) {
     keyframes_in_map_ = getIndex(in, map.keyframes().size() + 1, "number of keyframes");
-    problem.camera = camera;
-    problem.free_cameras = getIndex(in, keyframes_.size() + 1, "number of free keyframes");
-    if (problem.free_cameras == 0) throw DamagedBytes("an adjustment of nothing");
+    problem.cameras = {MountedCamera(camera)};
+    problem.free_keyframes = getIndex(in, keyframes_.size() + 1, "number of free keyframes");
+    if (problem.free_keyframes == 0) throw DamagedBytes("an adjustment of nothing");
     for (std::size_t c = 0; c < keyframes_.size(); ++c) {
-        problem.T_cam_world.push_back(decodePose(in));
+        problem.states.keyframes.push_back({decodePose(in), {}});
     }
     for (std::size_t p = 0; p < landmarks_.size(); ++p) {
         Eigen::Vector3d point;
         for (double& x : point) x = getFinite(in);
-        problem.points.push_back(point);
+        problem.states.points.push_back(point);
     }
     for (std::size_t o = 0; o < observation_keyframe_.size(); ++o) {
         problem.observations.push_back(getObservation(in, problem));

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "rgbd_graphslam/slam/reprojection.h"
+#include "rgbd_graphslam/estimation/reprojection.h"
 
 namespace rgbd_graphslam {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "rgbd_graphslam/slam/reprojection.h"
+#include "rgbd_graphslam/estimation/reprojection.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -190,7 +190,7 @@ std::optional<RowObservation> rowObservation(const MapSnapshot& map, const Keyfr
     o.sigma_px = std::pow(map.scale_factor, seen.octave);
     o.velocity_px_s = *velocity;
     const Eigen::Matrix<double, 2, 3> J = residualJacobian(map.camera, p, plain).topRows<2>();
-    o.by_pose << J, -J * skew(p);
+    o.by_pose = byPose(J, p);
     o.by_landmark = J * keyframe.T_cam_world.R;
     return o;
 }

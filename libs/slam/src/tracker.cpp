@@ -5,6 +5,7 @@
 #include "keypoint_alignment.h"
 #include "projected_search.h"
 #include "rgbd_graphslam/core/free_memory.h"
+#include "rgbd_graphslam/slam/keypoint_measurement.h"
 #include "rgbd_graphslam/slam/map_encoding.h"
 #include "rgbd_graphslam/slam/matcher.h"
 #include "rgbd_graphslam/slam/ransac_alignment.h"
@@ -143,7 +144,7 @@ std::optional<LocatedFrame> Tracker::track(Frame& frame) {
         const std::vector<int> landmarks = matchLast(frame, predicted, window, solution);
         if (solution.inliers < options_.tracker.min_inliers) continue;
         if (auto located =
-                trackLocalMap(frame, solution.T_cam_world, landmarks, PoseKernel::GemanMcClure)) {
+                trackLocalMap(frame, solution.T_body_world, landmarks, KernelShape::GemanMcClure)) {
             return located;
         }
     }
@@ -161,7 +162,7 @@ std::optional<LocatedFrame> Tracker::followLast(const Frame& frame, const SE3& p
             std::max<double>(options_.tracker.min_inliers, least_agreement * matches)) {
             continue;
         }
-        return LocatedFrame{solution.T_cam_world, std::move(landmarks), solution.inliers};
+        return LocatedFrame{solution.T_body_world, std::move(landmarks), solution.inliers};
     }
     return std::nullopt;
 }
@@ -216,7 +217,7 @@ std::vector<int> Tracker::matchLast(const Frame& frame, const SE3& predicted, do
 
 std::optional<LocatedFrame> Tracker::trackLocalMap(Frame& frame, const SE3& T_cam_world,
                                                    const std::vector<int>& landmarks,
-                                                   PoseKernel kernel) {
+                                                   KernelShape kernel) {
     LocatedFrame located;
     located.landmarks = landmarks;
     located.expected = searchLocalLandmarks(frame, T_cam_world, located.landmarks);
@@ -226,7 +227,7 @@ std::optional<LocatedFrame> Tracker::trackLocalMap(Frame& frame, const SE3& T_ca
     const auto found = collect(frame, located.landmarks, map_, options_.sensor);
     const PoseSolution solution = solvePose(camera_, found.matches, T_cam_world, kernel);
     if (solution.inliers < options_.tracker.min_inliers) return std::nullopt;
-    located.T_cam_world = solution.T_cam_world;
+    located.T_cam_world = solution.T_body_world;
     located.inliers = solution.inliers;
     located.information = solution.information;
     for (std::size_t m = 0; m < found.keypoints.size(); ++m) {
@@ -302,7 +303,7 @@ std::optional<SE3> Tracker::alignAround(const Frame& frame, const ExpectedPose& 
     for (std::size_t m = 0; m < pairs.size(); ++m) {
         if (aligned->inlier[m]) landmarks[pairs[m].first] = pairs[m].second;
     }
-    return solvePose(camera_, matches, aligned->T_cam_world).T_cam_world;
+    return solvePose(camera_, matches, aligned->T_cam_world).T_body_world;
 }
 
 /** \return (keypoint, landmark) */

@@ -1,4 +1,5 @@
 #include "rgbd_graphslam/slam/triangulation.h"
+#include "rgbd_graphslam/slam/keypoint_measurement.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include "../../support/textured_room.h"
 #include "../../support/tum_folder.h"
 #include "rgbd_graphslam/core/error.h"
-#include "rgbd_graphslam/slam/pose_graph.h"
+#include "rgbd_graphslam/estimation/pose_graph.h"
 
 namespace rgbd_graphslam {
 namespace {

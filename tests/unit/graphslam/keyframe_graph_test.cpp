@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
-#include "rgbd_graphslam/slam/relative_pose.h"
+#include "rgbd_graphslam/estimation/relative_pose.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -34,7 +34,7 @@ TEST(KeyframeGraph, robotEdgeSaysTheSameAsTheCameraEdge) {
                 x[axis] += h;
                 const mrpt::poses::CPose3D moved(x[0], x[1], x[2], x[3], x[4], x[5]);
                 const SE3 camera = T_base_cam.inverse() * toSE3(moved) * T_base_cam;
-                return Vector6d(relativePoseResidual(SE3(), camera, edge.T_from_to) / h);
+                return Vector6d(relativePoseError(camera, edge.T_from_to) / h);
             };
             const double expected = residual(i).dot(edge.information * residual(j));
             EXPECT_NEAR(robot.cov_inv(i, j), expected, 2e-3 * edge.information.norm());

@@ -86,9 +86,9 @@ TEST_F(MapAdjustmentTest, anotherThreadSolvesTheSame) {
     BackgroundBundleAdjustment there(adjustment(),
                                      [](BundleProblem& problem) { adjustBundle(problem, 20); });
     EXPECT_GE(there.wait(), 0);
-    const SE3& found = there.adjustment().problem.T_cam_world[0];
-    EXPECT_EQ(found.R, here.problem.T_cam_world[0].R);
-    EXPECT_EQ(found.t, here.problem.T_cam_world[0].t);
+    const SE3& found = there.adjustment().problem.states.keyframes[0].T_body_world;
+    EXPECT_EQ(found.R, here.problem.states.keyframes[0].T_body_world.R);
+    EXPECT_EQ(found.t, here.problem.states.keyframes[0].T_body_world.t);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "rgbd_graphslam/slam/map_adjustment.h"
+#include "rgbd_graphslam/slam/slam_options.h"
 
 namespace rgbd_graphslam {
 

@@ -6,6 +6,7 @@
 
 #include "rgbd_graphslam/slam/map_adjustment.h"
 #include "rgbd_graphslam/slam/slam_map.h"
+#include "rgbd_graphslam/slam/slam_options.h"
 
 namespace rgbd_graphslam {
 

@@ -6,6 +6,7 @@
 #include "rgbd_graphslam/slam/local_mapper.h"
 #include "rgbd_graphslam/slam/loop_plausibility.h"
 #include "rgbd_graphslam/slam/place_index.h"
+#include "rgbd_graphslam/slam/slam_options.h"
 #include "rgbd_graphslam/slam/tracker.h"
 
 namespace rgbd_graphslam {

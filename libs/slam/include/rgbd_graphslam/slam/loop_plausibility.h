@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "rgbd_graphslam/core/byte_stream.h"
-#include "rgbd_graphslam/slam/pose_graph.h"
+#include "rgbd_graphslam/estimation/pose_graph.h"
 #include "rgbd_graphslam/slam/slam_map.h"
 #include "rgbd_graphslam/slam/slam_options.h"
 

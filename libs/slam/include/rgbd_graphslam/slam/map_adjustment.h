@@ -4,8 +4,9 @@
 #include <future>
 #include <vector>
 
-#include "rgbd_graphslam/slam/bundle_adjustment.h"
+#include "rgbd_graphslam/estimation/bundle_adjustment.h"
 #include "rgbd_graphslam/slam/slam_map.h"
+#include "rgbd_graphslam/slam/slam_options.h"
 
 namespace rgbd_graphslam {
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "rgbd_graphslam/core/byte_stream.h"
+#include "rgbd_graphslam/estimation/pose_graph.h"
 #include "rgbd_graphslam/geometry/camera.h"
-#include "rgbd_graphslam/slam/pose_graph.h"
 #include "rgbd_graphslam/slam/slam_map.h"
 
 namespace rgbd_graphslam {

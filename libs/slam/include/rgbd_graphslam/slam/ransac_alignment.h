@@ -4,7 +4,7 @@
 #include <optional>
 #include <vector>
 
-#include "rgbd_graphslam/slam/pose_solver.h"
+#include "rgbd_graphslam/estimation/pose_solver.h"
 
 namespace rgbd_graphslam {
 

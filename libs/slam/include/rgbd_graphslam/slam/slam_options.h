@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "rgbd_graphslam/core/options.h"
+#include "rgbd_graphslam/estimation/pose_graph.h"
 #include "rgbd_graphslam/features/feature_options.h"
 #include "rgbd_graphslam/geometry/depth_noise.h"
-#include "rgbd_graphslam/slam/pose_graph.h"
 
 namespace rgbd_graphslam {
 

@@ -4,9 +4,10 @@
 #include <utility>
 #include <vector>
 
+#include "rgbd_graphslam/estimation/pose_solver.h"
 #include "rgbd_graphslam/slam/feature_view.h"
-#include "rgbd_graphslam/slam/pose_solver.h"
 #include "rgbd_graphslam/slam/slam_map.h"
+#include "rgbd_graphslam/slam/slam_options.h"
 
 namespace rgbd_graphslam {
 
@@ -53,7 +54,7 @@ class Tracker {
      *  \param kernel Geman and McClure's for a pose that is good already */
     std::optional<LocatedFrame> trackLocalMap(Frame& frame, const SE3& T_cam_world,
                                               const std::vector<int>& landmarks,
-                                              PoseKernel kernel = PoseKernel::Huber);
+                                              KernelShape kernel = KernelShape::Huber);
 
     /** Searches the landmarks of some keyframes around a pose that dead reckoning tells, in windows
      *  as wide as it is uncertain, aligns the points by RANSAC and goes on as trackLocalMap().

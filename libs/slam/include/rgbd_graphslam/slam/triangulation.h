@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "rgbd_graphslam/slam/reprojection.h"
+#include "rgbd_graphslam/estimation/reprojection.h"
 #include "rgbd_graphslam/slam/slam_map.h"
 #include "rgbd_graphslam/slam/slam_options.h"
 

@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
+#include "rgbd_graphslam/estimation/pose_graph.h"
 #include "rgbd_graphslam/features/frame.h"
 #include "rgbd_graphslam/geometry/camera.h"
 #include "rgbd_graphslam/geometry/rgbd_image.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 #include "rgbd_graphslam/slam/feature_view.h"
 #include "rgbd_graphslam/slam/map_snapshot.h"
-#include "rgbd_graphslam/slam/pose_graph.h"
 #include "rgbd_graphslam/slam/slam_options.h"
 
 namespace rgbd_graphslam {

@@ -1,0 +1,34 @@
+/** A camera and its place on the body. */
+#pragma once
+#include "rgbd_graphslam/geometry/camera.h"
+#include "rgbd_graphslam/geometry/se3.h"
+
+namespace rgbd_graphslam {
+
+class MountedCamera {
+  public:
+    explicit MountedCamera(const Camera& camera = {}, const SE3& T_cam_body = {})
+        : camera_(camera),
+          T_cam_body_(T_cam_body),
+          is_body_(T_cam_body.R.isIdentity(0) && T_cam_body.t.isZero(0)) {}
+
+    const Camera& camera() const { return camera_; }
+    const SE3& T_cam_body() const { return T_cam_body_; }
+
+    /** From the body's coordinates to the camera's. */
+    Eigen::Vector3d fromBody(const Eigen::Vector3d& p_body) const {
+        return is_body_ ? p_body : T_cam_body_ * p_body;
+    }
+    /** Derivatives by a point in the body's coordinates, from those by a point in the camera's. */
+    Eigen::Matrix3d byBodyPoint(const Eigen::Matrix3d& by_cam_point) const {
+        return is_body_ ? by_cam_point : by_cam_point * T_cam_body_.R;
+    }
+
+  private:
+    Camera camera_;
+    SE3 T_cam_body_;
+    /** Most often there is one camera, which defines the body: nothing to multiply. */
+    bool is_body_;
+};
+
+}  // namespace rgbd_graphslam
