@@ -1,11 +1,13 @@
-# All programs on a bare Debian 12:
+# The programs on a bare Debian 12, from the Debian package that this builds:
 #   docker build -t rgbd-graphslam .
-#   docker run --rm -v "$PWD:/data" rgbd-graphslam rgbd-slam /usr/local/share/rgbd_graphslam/ini/default.ini X.rawlog -o out
-FROM debian:bookworm
+#   docker run --rm -v "$PWD:/data" rgbd-graphslam rgbd-slam X.rawlog -o out
+FROM debian:bookworm AS build
 COPY . /src/rgbd-graphslam
-WORKDIR /src/rgbd-graphslam
-RUN ./run.sh install-build && rm -rf /var/lib/apt/lists/* \
-    && cmake --preset release -DRGBD_BUILD_TESTS=OFF \
-    && cmake --build build/release && cmake --install build/release && rm -rf build
+RUN /src/rgbd-graphslam/run.sh package
+
+FROM debian:bookworm
+COPY --from=build /src/rgbd-graphslam/build/package/rgbd-graphslam_*.deb /tmp/
+RUN apt-get update && apt-get install -y --no-install-recommends /tmp/rgbd-graphslam_*.deb \
+    && rm -rf /tmp/*.deb /var/lib/apt/lists/*
 WORKDIR /data
 CMD ["rgbd-slam", "--help"]

@@ -4,7 +4,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")"
 
 build=build/release
-# What the programs need, and what tests and benchmarks need besides.
+# What the programs need, and what packages, tests and benchmarks need besides.
 build_packages=(
     g++ cmake ninja-build
     libmrpt-graphslam-dev libmrpt-nav-dev libmrpt-nanogui-dev
@@ -13,9 +13,10 @@ build_packages=(
     libcurl4-openssl-dev libnanoflann-dev gnuplot-nox
     libgl-dev libopengl-dev libegl1 libgl1-mesa-dri
 )
+package_packages=(dpkg-dev file)
 test_packages=(
     ccache pkg-config mrpt-apps octomap-tools
-    libgtest-dev libgmock-dev libbenchmark-dev python3 parallel
+    libgtest-dev libgmock-dev libbenchmark-dev python3 parallel doxygen
     python3-rosbag python3-sensor-msgs python3-nav-msgs python3-tf2-msgs zstd lz4 xvfb xauth
     colmap assimp-utils
 )
@@ -29,6 +30,7 @@ usage: ./run.sh COMMAND
   test     install and build everything, run every test
   bench    install, build, measure (see doc/benchmarks.md)
   build    install and build everything
+  package  install what it needs, make Debian packages in build/package
   install  install all missing Debian packages
   install-build   install only those that the programs need
 END
@@ -79,6 +81,13 @@ build_demo() {
     cmake --build "$build" --target rgbd-slam rgbd-eval rgbd-viewer
 }
 
+make_packages() {
+    say "Making Debian packages"
+    [ -f build/package/build.ninja ] || cmake --preset package
+    cmake --build build/package
+    (cd build/package && rm -f ./*.deb && cpack -G DEB)
+}
+
 run_tests() {
     say "Running the tests"
     ctest --test-dir "$build" --output-on-failure -j "$(nproc)" "$@"
@@ -87,7 +96,7 @@ run_tests() {
 run_demo() {
     local sample=rawlogs/office_sample.rawlog out=out/demo bin=$build/bin figures drift
     say "SLAM on $sample"
-    figures=$("$bin/rgbd-slam" ini/default.ini "$sample" -o "$out")
+    figures=$("$bin/rgbd-slam" "$sample" -o "$out")
     say "Evaluating against the exact truth in the rawlog"
     "$bin/rgbd-eval" ate "$out/trajectory.txt" "$sample" --plot "$out/ate.png" >"$out/ate.txt"
     drift=$("$bin/rgbd-eval" rpe "$out/trajectory.txt" "$sample" --fixed-delta |
@@ -115,6 +124,7 @@ case "${1:-}" in
     demo) install_packages "${build_packages[@]}"; build_demo; run_demo ;;
     test) install_all; build_all -DRGBD_BUILD_TESTS=ON; shift; run_tests "$@" ;;
     bench) build=build/bench; install_all; build_all; shift; exec tests/bench/run "$@" ;;
+    package) install_packages "${build_packages[@]}" "${package_packages[@]}"; make_packages ;;
     build) install_all; build_all -DRGBD_BUILD_TESTS=ON ;;
     install) install_all ;;
     install-build) install_packages "${build_packages[@]}" ;;

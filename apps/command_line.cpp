@@ -40,6 +40,19 @@ int endOfParsing(const CLI::App& app, const CLI::ParseError& end) {
     throw Error(problem, "see " + commandOf(app) + " --help");
 }
 
+/** Prints `[FILE]` where CLI11 would print `[FILE(1x)]` for a positional argument that may be given
+ *  more than once. */
+class UsageFormatter : public CLI::Formatter {
+  public:
+    std::string make_option_usage(const CLI::Option* option) const override {
+        if (option->get_expected_max() >= CLI::detail::expected_max_vector_size) {
+            return Formatter::make_option_usage(option);
+        }
+        const std::string name = make_option_name(option, true);
+        return option->get_required() ? name : "[" + name + "]";
+    }
+};
+
 /** What the value of an option is, by its name: the library's own names of types, TEXT, INT and
  *  FLOAT, are those of programmers. */
 std::string valueName(const CLI::Option& option, const std::string& type) {
@@ -119,6 +132,7 @@ CLI::Validator notNegative() {
 
 void declareCommonOptions(CLI::App& app) {
     nameValues(app);
+    app.formatter(std::make_shared<UsageFormatter>());
     app.add_flag_callback(
         "-q,--quiet", [] { setVerbosity(Verbosity::Quiet); }, "Only errors and results");
     app.add_flag_callback(

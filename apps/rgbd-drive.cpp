@@ -2,19 +2,23 @@
 #include <cstdio>
 
 #include "command_line.h"
+#include "configured_input.h"
 #include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/installed_files.h"
 #include "rgbd_graphslam/navigation/drive_job.h"
 
 using namespace rgbd_graphslam;
 
 int main(int argc, char** argv) {
     DriveRequest request;
+    ConfiguredInput run;
     std::vector<double> start, goal;
     CLI::App app(
         "Plans a way through the saved map of a run and drives a simulated robot along it.",
         "rgbd-drive");
-    app.add_option("INI", request.ini, "Settings, e.g. ini/drive.ini")->required();
-    app.add_option("OUT", request.run_folder, "Output folder of rgbd-slam")->required();
+    run.declare(app, "OUT", "Output folder of rgbd-slam",
+                "Robot and settings (default: the shipped drive.ini)");
     app.add_option("--goal", goal, "x,y in the map, m")->delimiter(',')->expected(2)->required();
     app.add_option("--start", start,
                    "x,y,phi in the map, m and rad (default: below the first camera, its way)")
@@ -27,11 +31,15 @@ int main(int argc, char** argv) {
     app.add_option("-o,--output", request.out_folder,
                    "Folder for path.csv and drive.png (default: OUT)");
     app.add_option("--set", request.settings, "DriveOptions.key=value instead of the ini's");
-    declareExamples(app,
-                    {"rgbd-drive ini/drive.ini out --goal 1.5,0.5",
-                     "rgbd-drive ini/drive.ini out --start 0,0,1.57 --goal=-3.5,3.5 -o drive"});
+    declareExamples(
+        app, {"rgbd-drive out --goal 1.5,0.5",
+              "rgbd-drive out --config robot.ini --start 0,0,1.57 --goal=-3.5,3.5 -o drive"});
     declareCommonOptions(app);
     return runProgram(app, argc, argv, [&] {
+        request.run_folder = run.input();
+        if (request.run_folder.empty())
+            throw Error("missing argument OUT. Usage: rgbd-drive OUT --goal X,Y");
+        request.ini = run.ini().empty() ? shippedIni("drive.ini") : run.ini();
         request.goal = {goal[0], goal[1]};
         if (!start.empty()) request.start = mrpt::math::TPose2D(start[0], start[1], start[2]);
         const DriveSummary summary = runDrive(request);

@@ -2,6 +2,7 @@
 #include <cstdio>
 
 #include "command_line.h"
+#include "configured_input.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/job/slam_job.h"
@@ -13,7 +14,8 @@ constexpr int limited_exit_code = 3;
 constexpr int interrupted_exit_code = 130;
 
 struct Arguments {
-    std::string ini, rawlog, out_folder, map_folder, resume_folder, sensor_label;
+    ConfiguredInput rawlog;
+    std::string out_folder, map_folder, resume_folder, sensor_label;
     std::vector<std::string> assignments;
     int threads = 0, max_frames = 0;
     bool localize = false, extend = false;
@@ -21,10 +23,8 @@ struct Arguments {
 };
 
 void declare(CLI::App& app, Arguments& args) {
-    auto* const ini =
-        app.add_option("INI", args.ini, "Settings, e.g. ini/default.ini")->type_name("FILE");
-    auto* const rawlog =
-        app.add_option("RAWLOG", args.rawlog, "Rawlog with RGB-D frames")->type_name("FILE");
+    args.rawlog.declare(app, "RAWLOG", "Rawlog with RGB-D frames",
+                        "Settings (default: those of ini/default.ini)");
     auto* const out =
         app.add_option("-o,--out", args.out_folder, "Folder for the results, created if missing")
             ->type_name("DIR");
@@ -64,12 +64,13 @@ void declare(CLI::App& app, Arguments& args) {
                        "Resume the interrupted run in DIR from its last checkpoint, using its "
                        "settings and rawlog")
             ->type_name("DIR");
-    for (auto* const other : {ini, rawlog, out, map, sensor, strict, set, max_frames, no_maps}) {
+    for (auto* const other : args.rawlog.options()) resume->excludes(other);
+    for (auto* const other : {out, map, sensor, strict, set, max_frames, no_maps}) {
         resume->excludes(other);
     }
-    declareExamples(app, {"rgbd-slam ini/default.ini office.rawlog -o office",
-                          "rgbd-slam ini/default.ini office2.rawlog -o office2 --map office "
-                          "--localize"});
+    declareExamples(app, {"rgbd-slam office.rawlog -o office",
+                          "rgbd-slam desk.rawlog -o desk --config ini/realsense_d435.ini",
+                          "rgbd-slam office2.rawlog -o office2 --map office --localize"});
     declareCommonOptions(app);
 }
 
@@ -78,7 +79,8 @@ void overrideThreads(IniFile& ini, const CLI::App& app, const Arguments& args) {
 }
 
 JobOptions optionsOf(const CLI::App& app, const Arguments& args) {
-    IniFile ini = args.ini.empty() ? IniFile::fromText("", "") : IniFile::fromFile(args.ini);
+    const std::string path = args.rawlog.ini();
+    IniFile ini = path.empty() ? IniFile::fromText("", "") : IniFile::fromFile(path);
     for (const std::string& assignment : args.assignments) ini.override(assignment);
     overrideThreads(ini, app, args);
     if (app.count("--max-frames")) {
@@ -91,7 +93,7 @@ JobOptions optionsOf(const CLI::App& app, const Arguments& args) {
 }
 
 Error missingArgument(const std::string& name) {
-    return Error("missing argument " + name + ". Usage: rgbd-slam INI RAWLOG -o OUT");
+    return Error("missing argument " + name + ". Usage: rgbd-slam RAWLOG -o OUT");
 }
 
 SlamJob jobOf(const CLI::App& app, const Arguments& args) {
@@ -104,16 +106,14 @@ SlamJob jobOf(const CLI::App& app, const Arguments& args) {
         return job;
     }
     const JobOptions options = optionsOf(app, args);
-    for (const auto& [value, name] :
-         {std::pair(&args.ini, "INI"), std::pair(&args.rawlog, "RAWLOG"),
-          std::pair(&args.out_folder, "-o OUT")}) {
-        if (value->empty()) throw missingArgument(name);
-    }
+    const std::string rawlog = args.rawlog.input();
+    if (rawlog.empty()) throw missingArgument("RAWLOG");
+    if (args.out_folder.empty()) throw missingArgument("-o OUT");
     if (!args.map_folder.empty() && !args.localize && !args.extend) {
         throw Error("--map alone does not say what to do with it", "add --localize or --extend");
     }
     SlamJob job;
-    job.rawlog = args.rawlog;
+    job.rawlog = rawlog;
     job.out_folder = args.out_folder;
     job.options = options;
     job.map_folder = args.map_folder;

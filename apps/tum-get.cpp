@@ -3,8 +3,8 @@
 
 #include "command_line.h"
 #include "rgbd_graphslam/benchmark/fetch_sequence.h"
-#include "rgbd_graphslam/benchmark/installed_files.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/installed_files.h"
 
 namespace rgbd_graphslam {
 namespace {

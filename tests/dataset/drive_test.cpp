@@ -34,11 +34,11 @@ TEST_P(DriveThroughMap, arrivesWithoutTouchingTheTrueSurface) {
               "'" RGBD_SOURCE_DIR "/ini/default.ini' '" + folder + ".rawlog' -o '" + run + "' -q");
     if (HasFatalFailure()) return;
     for (const char* follow : {"motion", "route"}) {
-        const ProgramResult drive = runProgram(
-            "rgbd-drive", "'" RGBD_SOURCE_DIR "/ini/drive.ini' '" + run + "' " + GetParam().way +
-                              " --surface '" + folder + "/surface.ply' --truth '" + folder +
-                              "/groundtruth.txt' --set DriveOptions.follow=" + follow + " -o '" +
-                              out / follow + "'");
+        const ProgramResult drive =
+            runProgram("rgbd-drive", "'" + run + "' " + GetParam().way + " --surface '" + folder +
+                                         "/surface.ply' --truth '" + folder +
+                                         "/groundtruth.txt' --set DriveOptions.follow=" + follow +
+                                         " -o '" + out / follow + "'");
         EXPECT_EQ(drive.exit_code, 0) << follow << "\n" << drive.out << drive.err;
         EXPECT_NE(drive.out.find("arrived        yes"), std::string::npos) << drive.out;
         EXPECT_GT(numberAfter("driven", drive.out), GetParam().least_path_m) << drive.out;

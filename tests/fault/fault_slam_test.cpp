@@ -101,9 +101,20 @@ TEST_F(FaultSlam, valuesOutOfRange) {
 
 TEST_F(FaultSlam, missingArguments) {
     expectRefused(runProgram("rgbd-slam", inQuotes(default_ini)),
-                  "missing argument RAWLOG. Usage: rgbd-slam INI RAWLOG -o OUT");
+                  "missing argument RAWLOG. Usage: rgbd-slam RAWLOG -o OUT");
+    expectRefused(runProgram("rgbd-slam", inQuotes(rawlog_)), "missing argument -o OUT");
     expectRefused(runProgram("rgbd-slam", inQuotes(default_ini) + " " + inQuotes(rawlog_)),
                   "missing argument -o OUT");
+}
+
+TEST_F(FaultSlam, settingsGivenTwice) {
+    expectRefused(
+        slam("--config " + inQuotes(default_ini)),
+        "both '" + default_ini + "' and --config '" + default_ini + "' give the settings");
+}
+
+TEST_F(FaultSlam, moreThanOneRawlog) {
+    expectRefused(slam(inQuotes(folder_ / "b.rawlog")), "b.rawlog");
 }
 
 TEST_F(FaultSlam, missingRawlog) {

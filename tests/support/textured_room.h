@@ -42,10 +42,7 @@ class TexturedRoom {
                 depth.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(z * 5000 + 0.5);
             }
         }
-        auto frame = makeRgbdObservation(setup_, stamp_s);
-        setColor(*frame, color);
-        setDepth(*frame, depth);
-        return frame;
+        return makeRgbdObservation(setup_, stamp_s, color, depth);
     }
 
   private:

@@ -10,9 +10,9 @@
 #include <thread>
 
 #include "rgbd_graphslam/benchmark/benchmark_report.h"
-#include "rgbd_graphslam/benchmark/installed_files.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/installed_files.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;

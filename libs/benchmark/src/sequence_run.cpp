@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "rgbd_graphslam/benchmark/child_process.h"
-#include "rgbd_graphslam/benchmark/installed_files.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/installed_files.h"
 #include "rgbd_graphslam/dataset/camera_file.h"
 #include "rgbd_graphslam/dataset/rawlog_info.h"
 #include "rgbd_graphslam/evaluation/plots.h"

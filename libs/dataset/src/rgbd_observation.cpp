@@ -279,6 +279,14 @@ CObservation3DRangeScan::Ptr makeRgbdObservation(const CameraSetup& setup, doubl
     return observation;
 }
 
+CObservation3DRangeScan::Ptr makeRgbdObservation(const CameraSetup& setup, double stamp_s,
+                                                 const cv::Mat& color, const cv::Mat& depth) {
+    auto observation = makeRgbdObservation(setup, stamp_s);
+    setColor(*observation, color);
+    setDepth(*observation, depth);
+    return observation;
+}
+
 void setDepth(CObservation3DRangeScan& observation, const cv::Mat& depth) {
     observation.hasRangeImage = true;
     observation.rangeImage_setSize(depth.rows, depth.cols);

@@ -1,9 +1,12 @@
+#include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
+#include <mrpt/serialization/CArchive.h>
 #include <mrpt/serialization/CSerializable.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 
 #include "file_bytes.h"
@@ -73,6 +76,19 @@ void saveMrptObject(const std::string& path, const mrpt::serialization::CSeriali
         throw Error("cannot pack the contents of '" + path + "'", "free some memory");
     }
     writeBytes(path, packed.data(), packed.size());
+}
+
+mrpt::maps::COccupancyGridMap2D loadGridMap(const std::string& path) {
+    if (!std::filesystem::is_regular_file(path))
+        throw Error("'" + path + "' is missing", "give the output folder of rgbd-slam or rgbd-map");
+    mrpt::maps::COccupancyGridMap2D grid;
+    try {
+        mrpt::io::CFileGZInputStream file(path);
+        mrpt::serialization::archiveFrom(file) >> grid;
+    } catch (const std::exception&) {
+        throw Error("'" + path + "' is cut off or no grid map", "make it again with rgbd-map");
+    }
+    return grid;
 }
 
 void saveRosGrid(const std::string& stem, const mrpt::maps::COccupancyGridMap2D& grid) {

@@ -1,8 +1,5 @@
 #include "rgbd_graphslam/navigation/navigation_map.h"
 
-#include <mrpt/io/CFileGZInputStream.h>
-#include <mrpt/serialization/CArchive.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -85,24 +82,11 @@ std::vector<mrpt::math::TPoint2D> bordersOf(const COccupancyGridMap2D& grid) {
     return borders;
 }
 
-COccupancyGridMap2D loadGrid(const std::string& path) {
-    if (!std::filesystem::is_regular_file(path))
-        throw Error("'" + path + "' is missing", "give the output folder of rgbd-slam or rgbd-map");
-    COccupancyGridMap2D grid;
-    try {
-        mrpt::io::CFileGZInputStream file(path);
-        mrpt::serialization::archiveFrom(file) >> grid;
-    } catch (const std::exception&) {
-        throw Error("'" + path + "' is cut off or no grid map", "make it again with rgbd-map");
-    }
-    return grid;
-}
-
 NavigationMap loadNavigationMap(const std::string& run_folder, const DriveOptions& options,
                                 double height_m) {
     const std::filesystem::path folder(run_folder);
     NavigationMap map;
-    map.grid = loadGrid((folder / "grid.gridmap.gz").string());
+    map.grid = loadGridMap((folder / "grid.gridmap.gz").string());
     map.obstacles = obstaclesAmong(loadPly((folder / "points.ply").string()), options, height_m);
     map.borders = bordersOf(map.grid);
     return map;

@@ -1,8 +1,6 @@
 #include "rgbd_graphslam/viewer/run_data.h"
 
-#include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/maps/COccupancyGridMap2D.h>
-#include <mrpt/serialization/CArchive.h>
 #include <octomap/ColorOcTree.h>
 
 #include <algorithm>
@@ -49,10 +47,7 @@ OctreeCells cellsOf(const octomap::ColorOcTree& tree) {
 }
 
 GridMap readGrid(const std::string& path) {
-    mrpt::maps::COccupancyGridMap2D map;
-    mrpt::io::CFileGZInputStream in(path);
-    auto archive = mrpt::serialization::archiveFrom(in);
-    archive >> map;
+    const mrpt::maps::COccupancyGridMap2D map = loadGridMap(path);
     GridMap grid;
     grid.width = static_cast<int>(map.getSizeX());
     grid.height = static_cast<int>(map.getSizeY());

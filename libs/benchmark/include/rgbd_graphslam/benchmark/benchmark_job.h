@@ -7,6 +7,7 @@
 
 namespace rgbd_graphslam {
 
+/** What to run and where to put the results. */
 struct BenchmarkRequest {
     std::vector<std::string> folders;
     std::string out_folder;

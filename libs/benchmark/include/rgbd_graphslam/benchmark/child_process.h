@@ -5,6 +5,7 @@
 
 namespace rgbd_graphslam {
 
+/** How a child process ended and what it cost. */
 struct ChildResult {
     int exit_code = -1;  // 128 + signal when killed
     double wall_s = 0, cpu_s = 0;

@@ -6,6 +6,7 @@
 
 namespace rgbd_graphslam {
 
+/** Figures of one sequence, or why there are none. */
 struct SequenceResult {
     std::string name;
     /** Of recording, settings and programs: a result with another one is out of date. */

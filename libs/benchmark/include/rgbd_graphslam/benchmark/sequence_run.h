@@ -8,6 +8,7 @@
 
 namespace rgbd_graphslam {
 
+/** Settings that all sequences of a benchmark share. */
 struct SequenceRunOptions {
     /** Settings of rgbd-slam; empty: the shipped ones for the camera that the sequence's name
      *  tells, else default.ini. */

@@ -25,6 +25,7 @@ class DamagedBytes : public Error {
     using Error::Error;
 };
 
+/** Appends numbers and texts to a growing buffer. */
 class ByteWriter {
   public:
     void reserve(std::size_t bytes) { bytes_.reserve(bytes); }

@@ -6,6 +6,7 @@
 
 namespace rgbd_graphslam {
 
+/** How much a program says besides errors and results. */
 enum class Verbosity { Quiet, Normal, Verbose };
 
 /** Process-wide; set once from --quiet/--verbose. */

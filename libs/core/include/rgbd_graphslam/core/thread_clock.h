@@ -5,6 +5,7 @@
 
 namespace rgbd_graphslam {
 
+/** Measures from its construction; for the calling thread only. */
 class ThreadClock {
   public:
     double cpuMs() const { return cpuNow() - cpu_; }

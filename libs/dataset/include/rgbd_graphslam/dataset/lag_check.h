@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 
+/** A delay between color and depth. */
 struct DepthLag {
     /** Depth shows what color showed so much earlier; negative: what it shows later. */
     double seconds = 0;

@@ -8,6 +8,7 @@
 
 namespace rgbd_graphslam {
 
+/** A verdict on wheel odometry, whose headings may be scaled apart from its positions. */
 struct OdometryVerdict : SensorVerdict {
     /** Headings are so many times too large; negative when they turn the other way. */
     double heading_factor = 1;

@@ -8,6 +8,7 @@
 
 namespace rgbd_graphslam {
 
+/** Counts of entries, and the first frame's calibration. */
 struct RawlogInfo {
     std::size_t rgbd_frames = 0, imu = 0, odometry = 0, robot_poses = 0, others = 0;
     /** UNIX time of the first and last RGB-D frame in file order; 0 without frames. */

@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 
+/** Where a rawlog keeps its images. */
 enum class RawlogStorage {
     /** Everything in one file, pixels raw: the fastest to read and write. */
     Embedded,

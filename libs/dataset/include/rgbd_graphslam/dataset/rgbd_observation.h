@@ -39,6 +39,12 @@ SE3 cameraOnRobot(const mrpt::obs::CObservation3DRangeScan& observation);
 mrpt::obs::CObservation3DRangeScan::Ptr makeRgbdObservation(const CameraSetup& setup,
                                                             double stamp_s);
 
+/** An observation of images in memory. \param color CV_8UC3, BGR, shared; \param depth CV_16UC1 in
+ *  units of the setup, registered to color, copied; 0 = no reading */
+mrpt::obs::CObservation3DRangeScan::Ptr makeRgbdObservation(const CameraSetup& setup,
+                                                            double stamp_s, const cv::Mat& color,
+                                                            const cv::Mat& depth);
+
 /** Copies depth into an observation.
  *  \param depth CV_16UC1 in units of the setup the observation was made with */
 void setDepth(mrpt::obs::CObservation3DRangeScan& observation, const cv::Mat& depth);

@@ -5,6 +5,7 @@
 
 namespace rgbd_graphslam {
 
+/** What is wrong with a sensor's readings. */
 enum class SensorFault {
     /** Too little motion, or too few readings, to tell. */
     Undecided,
@@ -18,6 +19,7 @@ enum class SensorFault {
     Unusable,
 };
 
+/** The fault of a sensor, its evidence, and the correction. */
 struct SensorVerdict {
     SensorFault fault = SensorFault::Undecided;
     /** What is wrong and the value that would be right; empty without a fault. */

@@ -15,6 +15,7 @@
 
 namespace rgbd_graphslam {
 
+/** What to import, and how images are paired. */
 struct ImportOptions {
     /** Color and depth further apart than this are no pair, s. */
     double max_difference_s = 0.02;
@@ -54,6 +55,7 @@ struct ImageTally {
     std::size_t leftOver() const { return missing + repeated + no_partner + partner_taken; }
 };
 
+/** What was written and what was left out. */
 struct ImportReport {
     ImageTally color, depth;
     /** Frames written, and pairs left out because an image of theirs is damaged. */

@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 
+/** The layouts that are known. */
 enum class SequenceLayout {
     /** rgb.txt and depth.txt, see tum_sequence.h. */
     Tum,

@@ -7,6 +7,7 @@
 
 namespace rgbd_graphslam {
 
+/** What to export. */
 struct ExportOptions {
     /** Only what was recorded within these bounds, in s after the first RGB-D frame; frames
      *  count by their color stamp. */
@@ -23,6 +24,7 @@ struct ExportOptions {
     int threads = 2;
 };
 
+/** What was written for one camera. */
 struct ExportReport {
     std::size_t frames = 0, imu = 0, odometry = 0, truth = 0;
     /** The camera's sensor label, and its folder below that of the export; empty when it is the

@@ -11,6 +11,7 @@ namespace rgbd_graphslam {
  *  with .zstd behind, or the folder of a ROS 2 bag. */
 bool isBag(const std::string& path);
 
+/** Which topics of a bag to take. */
 struct BagOptions {
     /** Image topics to take; empty: the best ones, see UnpackedBag. */
     std::string color_topic, depth_topic;

@@ -8,6 +8,7 @@
 
 namespace rgbd_graphslam {
 
+/** A point seen by a camera. */
 struct BundleObservation {
     int keyframe = 0, point = 0;
     Measurement measurement;
@@ -29,6 +30,7 @@ struct BundleProblem {
     std::vector<std::shared_ptr<const Factor>> factors;
 };
 
+/** What an adjustment achieved. */
 struct BundleSummary {
     double initial_cost = 0, final_cost = 0;
     int iterations = 0;

@@ -7,6 +7,7 @@
 
 namespace rgbd_graphslam {
 
+/** What an edge was measured by. */
 enum class EdgeKind { Sequential, Covisibility, Loop };
 
 /** A measured relative pose. The residual is the tangent vector (m, rad) of
@@ -20,6 +21,7 @@ struct PoseEdge {
     int inliers = 0;
 };
 
+/** Poses and the measurements between them. */
 struct PoseGraph {
     /** Node i is keyframe i; T_world_cam. */
     std::vector<SE3> nodes;
@@ -28,6 +30,7 @@ struct PoseGraph {
     int fixed = 0;
 };
 
+/** Section `[PoseGraphOptions]`. */
 struct PoseGraphOptions : Options {
     int max_iterations = 50;
     double loop_kernel_sigmas = 5.0;
@@ -36,6 +39,7 @@ struct PoseGraphOptions : Options {
     void describe(OptionVisitor& v) override;
 };
 
+/** How an optimization went. */
 struct PoseGraphSummary {
     /** Half the sum of squared, robustified residuals. */
     double initial_cost = 0, final_cost = 0;

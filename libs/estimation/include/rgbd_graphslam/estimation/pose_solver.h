@@ -18,6 +18,7 @@ struct PointMatch {
     int camera = 0;
 };
 
+/** A pose and the matches that agree with it. */
 struct PoseSolution {
     SE3 T_body_world;
     /** One entry per match. */

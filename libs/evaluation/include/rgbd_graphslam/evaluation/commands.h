@@ -24,6 +24,7 @@ struct TrajectoryRequest {
     std::string errors_plot, distribution_plot;
 };
 
+/** Arguments of `rgbd-eval ate`. */
 struct AteRequest : TrajectoryRequest {
     AteOptions options;
     std::string plot;
@@ -31,17 +32,20 @@ struct AteRequest : TrajectoryRequest {
 };
 std::string runAte(const AteRequest& request);
 
+/** Arguments of `rgbd-eval rpe`. */
 struct RpeRequest : TrajectoryRequest {
     RpeOptions options;
 };
 std::string runRpe(const RpeRequest& request);
 
+/** Arguments of `rgbd-eval consistency`. */
 struct ConsistencyRequest {
     std::string run_folder, truth;  // the truth: TUM text file or .rawlog
     ReportFormat format = ReportFormat::Text;
 };
 std::string runConsistency(const ConsistencyRequest& request);
 
+/** Arguments of `rgbd-eval associate`. */
 struct AssociateRequest {
     std::string first, second;  // lists
     AssociationOptions options;
@@ -77,6 +81,7 @@ Similarity alignmentOf(const SurfaceRequest& request);
  * camera. \throws Error as readTrajectory and SurfaceSight do */
 std::optional<SurfaceSight> sightOf(const SurfaceRequest& request, const PlyModel& surface);
 
+/** Arguments of `rgbd-eval map`. */
 struct MapRequest : SurfaceRequest {
     MapAccuracyOptions options;
 };

@@ -10,6 +10,7 @@
 
 namespace rgbd_graphslam {
 
+/** Where the map lies on the surface, and how completeness is counted. */
 struct MapAccuracyOptions {
     /** Maps the map's coordinates to the surface's. */
     Similarity alignment;
@@ -20,6 +21,7 @@ struct MapAccuracyOptions {
     const SurfaceSight* sight = nullptr;
 };
 
+/** Distances from map to surface and the share of the surface that is covered. */
 struct MapAccuracy {
     /** Of the map's points to the surface; exact for triangles, to the nearest vertex for a surface
      *  given as points. */

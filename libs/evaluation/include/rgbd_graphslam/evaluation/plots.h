@@ -14,11 +14,13 @@ struct EvaluatedAte {
     Trajectory estimate;
     AteResult result;
 };
+/** An estimate's relative errors with its name in the legend. */
 struct EvaluatedRpe {
     std::string label;
     RpeResult result;
 };
 
+/** The plane of the truth's frame that is drawn. */
 enum class PlotPlane { XY, XZ, YZ };
 
 /** Truth and aligned estimates projected on a plane of the truth's frame. With one estimate a line

@@ -11,6 +11,7 @@
 
 namespace rgbd_graphslam {
 
+/** How points are thinned. */
 struct PointCloudOptions {
     int every_pixel = 1;     // take each n-th pixel across and down
     double max_depth_m = 0;  // leave out what is farther; 0: nothing

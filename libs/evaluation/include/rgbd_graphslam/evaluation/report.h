@@ -23,6 +23,7 @@ struct Report {
     std::vector<Figure> figures;
 };
 
+/** Whether errors are listed along each axis, too. */
 enum class PerAxis { No, Yes };
 
 /** Counts, figures of the distance, fitted scale; with PerAxis::Yes the figures of the absolute
@@ -36,6 +37,7 @@ Report reportOf(const std::string& estimate, const RpeResult& result, PerAxis pe
 /** Distance of the map's points and completeness. */
 Report reportOf(const std::string& map, const MapAccuracy& accuracy);
 
+/** The forms of a table. */
 enum class ReportFormat { Text, Csv, Json, Latex };
 
 /** All reports in one table. Text: "name value unit" lines as the TUM tools print them, one column

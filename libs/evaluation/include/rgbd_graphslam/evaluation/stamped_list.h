@@ -19,6 +19,7 @@ std::vector<StampedLine> readStampedList(const std::string& path);
 /** In seconds. */
 std::vector<double> stampsOf(const std::vector<StampedLine>& lines);
 
+/** How two lists are associated by their stamps. */
 struct AssociationOptions {
     double max_difference_s = 0.02;  // exclusive
     double offset_s = 0;             // added to the stamps of the second list

@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 
+/** The limits within which the camera measures. */
 struct SightOptions {
     /** Depth along the optical axis within which the camera measures. */
     double min_range_m = 0.3, max_range_m = 5;

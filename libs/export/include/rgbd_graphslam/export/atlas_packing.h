@@ -5,6 +5,7 @@
 
 namespace rgbd_graphslam {
 
+/** Where each rectangle lies in the picture. */
 struct AtlasLayout {
     cv::Size size;                   // of the picture
     double scale = 1;                // of all rectangles

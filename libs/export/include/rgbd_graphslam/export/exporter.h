@@ -6,6 +6,7 @@
 
 namespace rgbd_graphslam {
 
+/** What all formats have in common, and settings of single ones. */
 struct ExportOptions {
     /** Takes the place of the rawlog named in summary.json unless empty. */
     std::string rawlog;
@@ -45,6 +46,7 @@ const std::vector<std::unique_ptr<const Exporter>>& exporters();
 /** Names of all formats. */
 std::vector<std::string> exportFormats();
 
+/** A file that was written, with a few words on its contents. */
 struct ExportedFile {
     std::string path, summary;
 };

@@ -7,12 +7,14 @@
 
 namespace rgbd_graphslam {
 
+/** A pose of the graph. */
 struct PoseGraphNode {
     int id = 0;
     SE3 pose;
     bool fixed = false;
 };
 
+/** A relative pose with its information. */
 struct PoseGraphEdge {
     int from = 0, to = 0;
     SE3 mean;  // T_from_to
@@ -22,6 +24,7 @@ struct PoseGraphEdge {
     Matrix6d information;
 };
 
+/** A whole graph as read from text. */
 struct PoseGraphText {
     std::vector<PoseGraphNode> nodes;
     std::vector<PoseGraphEdge> edges;

@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 
+/** A message type and its definition. */
 struct Ros2Type {
     std::string name;        // "nav_msgs/msg/Path"
     std::string definition;  // with those of all types it uses, as rosbag2 stores it
@@ -28,6 +29,7 @@ std::string pathMessage(const Trajectory& poses, const std::string& frame);
 /** Fields x, y, z (float, m) and rgb as PCL packs it. */
 std::string pointCloudMessage(const PointMap& points, double stamp_s, const std::string& frame);
 
+/** An occupancy grid as `nav_msgs/OccupancyGrid` holds it. */
 struct GridMap {
     cv::Mat1b cells;  // occupancy 0 to 100, 255 = unknown; the first row has the smallest y
     double cell_m = 0.05;

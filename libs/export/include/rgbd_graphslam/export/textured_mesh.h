@@ -13,6 +13,7 @@
 
 namespace rgbd_graphslam {
 
+/** Triangles with texture coordinates, and the texture. */
 struct TexturedMesh {
     std::vector<Eigen::Vector3f> vertices;  // m
     /** One per vertex, in [0, 1]; (0, 0) is the upper left corner of the texture. */

@@ -7,6 +7,7 @@
 
 namespace rgbd_graphslam {
 
+/** Reduces images of one camera to the small views that dense alignment uses. */
 class DenseViewBuilder {
   public:
     explicit DenseViewBuilder(const Camera& camera);

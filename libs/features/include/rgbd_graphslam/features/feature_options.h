@@ -7,6 +7,7 @@ namespace rgbd_graphslam {
 /** Farther, the depth of indoor cameras is noise. */
 inline constexpr double default_depth_max_m = 10;
 
+/** Section `[FeatureOptions]`. */
 struct FeatureOptions : Options {
     int count = 1000;
     int levels = 6;

@@ -10,6 +10,7 @@
 
 namespace rgbd_graphslam {
 
+/** Makes frames of the images of one camera. */
 class FrameBuilder {
   public:
     FrameBuilder(const FeatureOptions& options, const Camera& camera);

@@ -17,6 +17,7 @@ struct Corner {
     int octave = 0;
 };
 
+/** Corners with a descriptor and an image patch each, in the same order. */
 struct OrbFeatures {
     std::vector<Corner> corners;
     std::vector<Descriptor> descriptors;

@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 
+/** A pose at a point in time (UNIX time, s). */
 struct StampedPose {
     double stamp_s = 0;
     SE3 T_world_cam;

@@ -18,6 +18,7 @@
 
 namespace rgbd_graphslam {
 
+/** One frame with its features, and the readings of other sensors before it. */
 struct StreamedFrame {
     /** All else that the source holds between the frame before and this one. */
     std::vector<mrpt::obs::CObservation::Ptr> before;

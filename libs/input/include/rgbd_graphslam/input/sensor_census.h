@@ -17,6 +17,7 @@ struct SensorRecord {
     bool isRgbd() const { return class_name == "CObservation3DRangeScan"; }
 };
 
+/** Counts the observations of each sensor. */
 class SensorCensus {
   public:
     /** \param used whether anything reads this observation */

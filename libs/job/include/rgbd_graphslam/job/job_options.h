@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 
+/** The options of a run, its SLAM and its maps. */
 struct JobOptions {
     RunOptions run;
     SlamOptions slam;

@@ -4,6 +4,7 @@
 
 namespace rgbd_graphslam {
 
+/** Section `[RunOptions]`. */
 struct RunOptions : Options {
     int threads = 2;
     int frames_ahead = 8;

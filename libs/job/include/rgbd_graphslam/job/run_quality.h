@@ -26,6 +26,7 @@ struct DriftBeforeLoops {
     double share() const { return path_m > 0 ? gap_m / path_m : 0; }
 };
 
+/** Measures of quality that need no ground truth. */
 struct RunQuality {
     /** Of all frames, 0 to 1. */
     double tracked = 0, recovered = 0, dead_reckoned = 0, lost = 0;

@@ -12,6 +12,7 @@
 
 namespace rgbd_graphslam {
 
+/** What to run on, with which settings, and where to write. */
 struct SlamJob {
     std::string rawlog, out_folder;
     JobOptions options;

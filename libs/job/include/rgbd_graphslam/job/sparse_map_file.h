@@ -23,6 +23,7 @@ std::vector<MapSession> decodeSessions(ByteReader& in);
  *  \throws DamagedBytes where sessions are not in order, or begin after the last keyframe */
 void requireInOrder(const std::vector<MapSession>& sessions, std::size_t keyframes);
 
+/** The contents of a map.sparse file. */
 struct SparseMap {
     MapSnapshot snapshot;
     /** From the map's own world to the upright one of the run's output. */

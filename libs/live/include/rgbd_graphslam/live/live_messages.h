@@ -16,6 +16,7 @@ namespace rgbd_graphslam {
  * should be but was not found. */
 enum class FeatureState : std::uint8_t { Tracked, New, Lost };
 
+/** A keypoint to be drawn over the image. */
 struct LiveFeature {
     float u = 0, v = 0;  // px of the image as the sensor saw it
     FeatureState state = FeatureState::New;

@@ -13,6 +13,7 @@ struct SurfaceView {
     std::vector<SurfacePatch> patches;
 };
 
+/** A floor and how sure it is. */
 struct Floor {
     double height_m = 0;  // along up
     /** Of all patches, those clearly below it, 0 to 1: a floor that mirrors or gives no depth, or

@@ -22,6 +22,7 @@ struct RecordedCamera {
     std::string sensor_label;  // empty = of the first frame
 };
 
+/** A keyframe with its images and its pose. */
 struct Keyframe3D {
     std::size_t index;  // in the trajectory given
     StampedPose pose;   // of the color image

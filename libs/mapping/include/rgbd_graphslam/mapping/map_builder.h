@@ -7,6 +7,7 @@
 
 namespace rgbd_graphslam {
 
+/** Sizes and costs of the maps that were written. */
 struct MapSummary {
     std::size_t keyframes = 0, points = 0, octree_leaves = 0, triangles = 0;
     int grid_width = 0, grid_height = 0;  // cells

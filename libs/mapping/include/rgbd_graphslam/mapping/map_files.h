@@ -48,6 +48,9 @@ std::unique_ptr<octomap::ColorOcTree> loadColorOcTree(const std::string& path);
  *  \throws Error as readPly does, or when there are no colors */
 PointMap loadPly(const std::string& path);
 
+/** Reads a `.gridmap.gz`. \throws Error when the file is missing, cut off or no grid map */
+mrpt::maps::COccupancyGridMap2D loadGridMap(const std::string& path);
+
 /** ROS's map_server pair: an 8-bit PNG (occupied 0, free 254, unknown 205) and the YAML that says
  *  where it lies. \param stem path without extension */
 void saveRosGrid(const std::string& stem, const mrpt::maps::COccupancyGridMap2D& grid);

@@ -6,6 +6,7 @@
 
 namespace rgbd_graphslam {
 
+/** Section `[MapOptions]`. */
 struct MapOptions : Options {
     double point_voxel_m = 0.01;
     double octree_resolution_m = 0.05;

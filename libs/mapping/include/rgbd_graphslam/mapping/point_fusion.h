@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 
+/** A colored point. */
 struct MapPoint {
     Eigen::Vector3f position;  // m
     std::array<std::uint8_t, 3> rgb;

@@ -15,6 +15,7 @@ double roundLength(double most_m);
 /** As people say it: "20 cm", "1.5 m", "2 km". */
 std::string lengthText(double length_m);
 
+/** A bar of a round length. */
 struct ScaleBar {
     double length_m = 0, length_px = 0;
 };

@@ -18,6 +18,7 @@ struct Similarity {
     SE3 operator*(const SE3& pose) const { return {motion.R * pose.R, *this * pose.t}; }
 };
 
+/** Whether the scale is estimated along with the motion. */
 enum class AlignmentScale { Fixed, Fitted };
 
 /** The least-squares motion of Umeyama, "Least-squares estimation of transformation parameters

@@ -12,6 +12,7 @@
 
 namespace rgbd_graphslam {
 
+/** How estimate and truth are associated and aligned. */
 struct AteOptions : EstimateOptions {
     double max_difference_s = 0.02;  // between the stamps of an estimate and its truth, exclusive
     /** Align with the scale that fits best instead of `scale`. */
@@ -27,6 +28,7 @@ struct AtePair {
     Eigen::Vector3d error_m() const { return aligned_m - truth_m; }
 };
 
+/** Alignment and errors of one estimate. */
 struct AteResult {
     /** From the positions of the estimate as given (all scales included) to the truth's frame. */
     Similarity alignment;

@@ -15,6 +15,7 @@ namespace rgbd_graphslam {
  *  are summed along the path of the estimate. */
 enum class DeltaUnit { Seconds, Meters, Radians, Degrees, Frames };
 
+/** Which pairs of poses are compared. */
 struct RpeOptions : EstimateOptions {
     /** Pairs `delta` apart; otherwise all pairs, in which `delta` has no say. */
     bool fixed_delta = false;
@@ -32,6 +33,7 @@ struct RelativeError {
     Eigen::Vector3d rotation_rad = Eigen::Vector3d::Zero();  // axis times angle
 };
 
+/** The errors of all pairs and their statistics. */
 struct RpeResult {
     std::vector<RelativeError> errors;  // in the order the pairs were formed
     Statistics translation_m, rotation_deg;

@@ -8,6 +8,7 @@
 
 namespace rgbd_graphslam {
 
+/** Map, way and settings of a drive. */
 struct DriveRequest {
     std::string ini;                           // DriveOptions and MRPT's sections
     std::string run_folder;                    // of rgbd-slam or rgbd-map
@@ -18,6 +19,7 @@ struct DriveRequest {
     std::vector<std::string> settings;  // "DriveOptions.key=value"
 };
 
+/** How a drive went. */
 struct DriveSummary {
     bool arrived = false;
     std::string why_not;  // empty when arrived

@@ -10,12 +10,14 @@
 
 namespace rgbd_graphslam {
 
+/** The robot at one step of the simulation. */
 struct DrivenPose {
     double time_s;  // of the simulation
     mrpt::math::TPose2D pose;
     double speed_m_s, turn_rad_s;
 };
 
+/** A driven path, and why it ended. */
 struct Drive {
     bool arrived = false;
     std::string why_not;  // empty when arrived

@@ -8,6 +8,7 @@
 
 namespace rgbd_graphslam {
 
+/** A sentence of the report. */
 struct Finding {
     enum class Kind { Warning, Note } kind;
     std::string text;

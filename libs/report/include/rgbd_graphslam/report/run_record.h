@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 
+/** The origin of a frame's pose as frames.csv names it. */
 enum class FrameState { Tracked, Recovered, DeadReckoned, Uncertain, Lost };
 
 /** A line of frames.csv. */
@@ -26,6 +27,7 @@ struct StageRecord {
     double mean_ms = 0, median_ms = 0, p95_ms = 0, max_ms = 0;
 };
 
+/** A loop edge as summary.json tells it. */
 struct LoopRecord {
     int from = 0, to = 0;  // keyframes
     int inliers = 0;
@@ -50,6 +52,7 @@ struct QualityRecord {
     std::optional<double> drift_gap_m, drift_path_m;
 };
 
+/** All that the report needs of an output folder. */
 struct RunRecord {
     RunOrigin origin;
     std::string rawlog, version, config_hash;

@@ -7,6 +7,7 @@
 
 namespace rgbd_graphslam {
 
+/** A motion found by aligning two views. */
 struct DenseAlignment {
     /** Maps the view's camera coordinates to the reference's. */
     SE3 T_reference_view;

@@ -11,6 +11,7 @@
 
 namespace rgbd_graphslam {
 
+/** Finds and verifies the places of keyframes and of lost frames in the map. */
 class LoopCloser {
   public:
     /** All arguments must outlive the closer. */

@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 
+/** Keyframes, landmarks and loops of a map, and the camera they belong to. */
 struct MapSnapshot {
     /** That took the keyframes. */
     Camera camera;

@@ -8,6 +8,7 @@
 
 namespace rgbd_graphslam {
 
+/** A keyframe that looks alike. */
 struct PlaceVote {
     int keyframe = 0;
     /** Descriptors of the query that match one of the keyframe. */

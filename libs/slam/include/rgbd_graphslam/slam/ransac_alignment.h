@@ -8,6 +8,7 @@
 
 namespace rgbd_graphslam {
 
+/** A motion and the matches that agree with it. */
 struct RansacAlignment {
     SE3 T_cam_world;
     std::vector<bool> inlier;

@@ -25,6 +25,7 @@ struct RowObservation {
     Eigen::Matrix<double, 2, 3> by_landmark = Eigen::Matrix<double, 2, 3>::Zero();
 };
 
+/** An estimate with its uncertainty. */
 struct ReadoutTime {
     /** From the reading of the first row to that of the last, s; negative from bottom to top. */
     double seconds = 0;

@@ -14,6 +14,7 @@ namespace rgbd_graphslam {
 
 constexpr int no_landmark = -1;
 
+/** Where a landmark is seen. */
 struct Observation {
     int keyframe = 0;
     int keypoint = 0;
@@ -53,6 +54,7 @@ enum class Link : std::uint8_t {
     None,
 };
 
+/** A frame that is submap, with the landmarks it sees. */
 struct Keyframe {
     int id = 0;
     Frame frame;

@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 
+/** Section `[SensorOptions]`. */
 struct SensorOptions : Options {
     double keypoint_sigma_px = 0.8;
     double aligned_sigma_px = 0.4;
@@ -21,6 +22,7 @@ struct SensorOptions : Options {
     void describe(OptionVisitor& v) override;
 };
 
+/** Section `[TrackerOptions]`. */
 struct TrackerOptions : Options {
     double motion_window_px = 15;
     double wide_window_px = 40;
@@ -36,6 +38,7 @@ struct TrackerOptions : Options {
     void describe(OptionVisitor& v) override;
 };
 
+/** Section `[KeyframeOptions]`. */
 struct KeyframeOptions : Options {
     double max_translation_ratio = 0.10;
     double max_rotation_rad = 0.20;
@@ -50,6 +53,7 @@ struct KeyframeOptions : Options {
     void describe(OptionVisitor& v) override;
 };
 
+/** Section `[MapperOptions]`. */
 struct MapperOptions : Options {
     int window_keyframes = 10;
     int max_fixed_keyframes = 10;
@@ -68,6 +72,7 @@ struct MapperOptions : Options {
     void describe(OptionVisitor& v) override;
 };
 
+/** Section `[LoopOptions]`. */
 struct LoopOptions : Options {
     bool enabled = true;
     int min_keyframe_gap = 20;
@@ -82,6 +87,7 @@ struct LoopOptions : Options {
     void describe(OptionVisitor& v) override;
 };
 
+/** Section `[RecoveryOptions]`. */
 struct RecoveryOptions : Options {
     bool dead_reckoning = true;
     int dead_reckoned_keyframe_after = 5;

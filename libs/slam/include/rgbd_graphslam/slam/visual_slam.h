@@ -77,6 +77,7 @@ struct KeyframeView {
     int submap = 0;
 };
 
+/** One landmark as others see it. */
 struct LandmarkView {
     Eigen::Vector3d position;  // world, m
     int observations = 0;

@@ -8,6 +8,7 @@
 
 namespace rgbd_graphslam::synth {
 
+/** One reading of accelerometer and gyroscope, free of noise. */
 struct InertialReading {
     Eigen::Vector3d specific_force;  // m/s^2, optical frame: 9.81 against gravity when at rest
     Eigen::Vector3d angular_rate;    // rad/s, optical frame

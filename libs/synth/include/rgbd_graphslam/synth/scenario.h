@@ -28,6 +28,7 @@ struct World {
     std::vector<std::pair<double, double>> covered;
 };
 
+/** A scenario by name, and how to build its world. */
 struct Scenario {
     std::string name;
     std::string about;

@@ -46,6 +46,7 @@ struct BoxSkin {
     BoxSkin(const Skin& front_skin, const Skin& others) : BoxSkin(others) { front = front_skin; }
 };
 
+/** A point light. */
 struct Lamp {
     Eigen::Vector3d position;
     double intensity = 1;           // irradiance at 1 m straight below
@@ -57,6 +58,7 @@ struct MovingBody {
     std::vector<Quad> quads;
 };
 
+/** All that a renderer needs. */
 struct Scene {
     std::vector<Material> materials;
     std::vector<Quad> quads;

@@ -7,6 +7,7 @@
 
 namespace rgbd_graphslam::synth {
 
+/** What to film, and with which camera. */
 struct FilmOptions {
     int frames = 0;  // 0: the scenario's own number
     std::uint64_t seed = 1;

@@ -7,6 +7,7 @@
 
 namespace rgbd_graphslam {
 
+/** The kinds of files. */
 enum class ExportFormat { Ply, Pcd, Mesh, ColorOctree, BinaryOctree };
 
 /** The ending of its files' names, with the dot. */

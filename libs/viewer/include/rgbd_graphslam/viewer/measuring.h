@@ -7,6 +7,7 @@
 
 namespace rgbd_graphslam {
 
+/** The state of a measurement, from the first click to the second. */
 class Measuring {
   public:
     /** Starts anew, or stops. \return what to tell the user */

@@ -14,6 +14,7 @@ struct PointChunk {
     double radius_m = 0;
 };
 
+/** Points sorted into chunks that are drawn or left out as a whole. */
 struct ChunkedPoints {
     Vertices points;
     std::vector<PointChunk> chunks;

@@ -43,6 +43,7 @@ struct GridMap {
     std::vector<float> free;
 };
 
+/** All that is shown of a run. */
 struct RunData {
     /** Output folder; empty when only a cloud was opened. */
     std::string folder;

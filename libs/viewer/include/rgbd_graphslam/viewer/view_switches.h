@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 
+/** A checkbox of the view and its key. */
 struct ViewSwitch {
     bool ViewerSettings::*field;
     const char* name;

@@ -4,6 +4,7 @@
 
 namespace rgbd_graphslam {
 
+/** What to show. */
 struct ViewerJob {
     /** Output folder of rgbd-slam, or a `.ply`. */
     std::string path;

@@ -6,6 +6,7 @@
 
 namespace rgbd_graphslam {
 
+/** Section `[ViewerSettings]` of viewer.ini. */
 struct ViewerSettings : Options {
     int window_x = -1, window_y = -1, window_width = 1280, window_height = 800;
     bool points = true, mesh = false, octree = false, free_space = false, grid = false,

@@ -1,4 +1,4 @@
-#include "rgbd_graphslam/benchmark/installed_files.h"
+#include "rgbd_graphslam/core/installed_files.h"
 
 #include <filesystem>
 

@@ -1,0 +1,57 @@
+# Debian packages, made by `./run.sh package`:
+#   rgbd-graphslam          programs, settings, manual pages, completion, sample, documentation
+#   librgbd-graphslam-dev   headers, static libraries, CMake targets, examples
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME rgbd-graphslam)
+set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
+set(CPACK_PACKAGE_CONTACT "The rgbd-graphslam developers <rgbd-graphslam@localhost.localdomain>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+    OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_COMPONENTS_ALL runtime dev)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_RELEASE 1)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION TRUE)
+
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_NAME rgbd-graphslam)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
+# gnuplot draws the plots of rgbd-eval; EGL and Mesa draw the viewer's pictures without a display.
+set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "gnuplot-nox, libegl1, libgl1-mesa-dri")
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "RGB-D SLAM for mobile robots on MRPT
+ Takes recordings of RGB-D cameras such as Kinect and RealSense and produces the
+ camera trajectory, a loop-closed pose graph, and 3-D and navigation maps. Tools
+ to import, evaluate, view and export are included.")
+
+set(CPACK_DEBIAN_DEV_PACKAGE_NAME librgbd-graphslam-dev)
+set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
+string(CONCAT CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
+    "libmrpt-graphslam-dev, libmrpt-nav-dev, libmrpt-nanogui-dev, libeigen3-dev, libopencv-dev, "
+    "libceres-dev, liboctomap-dev, nlohmann-json3-dev, libarchive-dev, libsqlite3-dev, "
+    "zlib1g-dev, libcurl4-openssl-dev, libglfw3-dev, libgl-dev, libopengl-dev")
+set(CPACK_COMPONENT_DEV_DESCRIPTION "RGB-D SLAM for mobile robots on MRPT (development files)
+ Headers, static libraries and CMake targets to embed RGB-D SLAM in programs:
+ find_package(rgbd_graphslam), then link to rgbd_graphslam::graphslam.")
+
+# What Debian's policy wants of every package: a copyright file and a changelog.
+string(TIMESTAMP date "%a, %d %b %Y 00:00:00 +0000" UTC)
+set(changelog ${PROJECT_BINARY_DIR}/changelog.Debian)
+file(CONFIGURE OUTPUT ${changelog} CONTENT [[
+rgbd-graphslam (@PROJECT_VERSION@-@CPACK_DEBIAN_PACKAGE_RELEASE@) stable; urgency=medium
+
+  * See CHANGELOG.md of the sources.
+
+ -- @CPACK_PACKAGE_CONTACT@  @date@
+]] @ONLY)
+execute_process(COMMAND gzip -9nkf ${changelog} COMMAND_ERROR_IS_FATAL ANY)
+foreach(component runtime dev)
+    string(TOUPPER ${component} COMPONENT)
+    set(documents ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${COMPONENT}_PACKAGE_NAME})
+    install(FILES LICENSE RENAME copyright DESTINATION ${documents} COMPONENT ${component})
+    install(FILES ${changelog}.gz DESTINATION ${documents} COMPONENT ${component})
+endforeach()
+
+include(CPack)
