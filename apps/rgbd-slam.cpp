@@ -39,8 +39,8 @@ void declare(CLI::App& app, Arguments& args) {
     localize->needs(map);
     auto* const sensor =
         app.add_option("--sensor", args.sensor_label,
-                       "Label of the RGB-D camera to use where the rawlog has several "
-                       "(default: the first)")
+                       "Label of the only RGB-D camera to use where the rawlog has several "
+                       "(default: all of them, as one rig)")
             ->type_name("LABEL");
     auto* const strict = app.add_flag(
         "--strict", args.strict,

@@ -1,4 +1,5 @@
 /** rgbd-synth: films synthetic RGB-D sequences with exact truth. */
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -55,6 +56,7 @@ int main(int argc, char** argv) {
     synth::FilmOptions options;
     std::string scenario, folder, size = "640x480", noise = "kinect";
     std::vector<std::string> sheet;
+    std::vector<double> mount;
     double readout_ms = 0;
     bool list_only = false;
     app.add_option("scenario", scenario, "see --list");
@@ -77,6 +79,11 @@ int main(int argc, char** argv) {
                    "rolling shutter: time from the first row's reading to the last's, ms")
         ->check(notNegative())
         ->type_name("MS");
+    app.add_option("--mount", mount,
+                   "film with another camera of the same rig, at this pose on the first: x y z (m) "
+                   "yaw pitch roll (degrees), x forward")
+        ->expected(6)
+        ->type_name("X Y Z YAW PITCH ROLL");
     app.add_option("--contact-sheet", sheet,
                    "PICTURE DIR...: show finished sequences in one picture, film nothing");
     app.add_option("--session", options.session, "of a scenario with several")
@@ -91,6 +98,7 @@ int main(int argc, char** argv) {
             throw Error("scenario or folder is missing", "see rgbd-synth --help");
         options.readout_s = 1e-3 * readout_ms;
         options.noise = noise == "kinect";
+        std::copy(mount.begin(), mount.end(), options.mount.begin());
         setSize(size, options);
         const synth::FilmSummary film = synth::film(synth::findScenario(scenario), options, folder);
         std::printf("%s: %s\n", folder.c_str(), inFigures(film).c_str());

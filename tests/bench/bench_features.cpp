@@ -83,8 +83,8 @@ double pyramidTraffic(const FeatureOptions& options) {
 }
 
 void wholeFrame(benchmark::State& state) {
-    Camera camera;
-    if (state.range(1)) camera.distortion = {0.2624, -0.9531, -0.0054, 0.0026, 1.1633};
+    Intrinsics camera;
+    if (state.range(1)) camera.lens = BrownLens{{0.2624, -0.9531, -0.0054, 0.0026, 1.1633}};
     const FrameBuilder builder(optionsFor(state), camera);
     std::size_t keypoints = 0;
     for (auto _ : state) keypoints = builder.build(texturedFrame()).keypoints.size();

@@ -43,7 +43,7 @@ MapSnapshot journey(int keyframes) {
             }
         }
     }
-    return takeSnapshot(map, camera, options.features.scale_factor, {});
+    return takeSnapshot(map, rigOf(camera), options.features.scale_factor, {});
 }
 
 class MapOnDisk {

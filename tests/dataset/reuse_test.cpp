@@ -71,7 +71,7 @@ class MapOfEvenFrames : public testing::TestWithParam<Clip> {
         sequence.depth = everySecond(sequence.depth, first);
         CameraSetup setup;
         setup.camera =
-            Camera{640, 480, GetParam().f, GetParam().f, GetParam().cx, GetParam().cy, {}};
+            Intrinsics{640, 480, GetParam().f, GetParam().f, GetParam().cx, GetParam().cy, {}};
         setup.depth_units = 1000;
         importSequence(sequence, setup, rawlog, {});
     }
@@ -111,7 +111,7 @@ TEST_P(MapOfEvenFrames, anyFrameIsRecognizedAlone) {
     const SlamOptions options;
     const Camera camera = cameraOf(stream.firstFrame());
     const VisualSlam extractor(options, camera);
-    stream.start([&](const RgbdImage& image) { return extractor.prepare(image); });
+    stream.start([&](const auto& images) { return extractor.prepare(images); });
     const auto even = readTumTrajectory(folder_ / "even/trajectory.txt");
     int frames = 0, recognized = 0;
     std::vector<double> cpu_ms;

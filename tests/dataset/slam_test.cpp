@@ -30,7 +30,7 @@ std::ostream& operator<<(std::ostream& out, const Clip& clip) {
 
 CameraSetup pinhole(double fx, double fy, double cx, double cy) {
     CameraSetup setup;
-    setup.camera = Camera{640, 480, fx, fy, cx, cy, {}};
+    setup.camera = Intrinsics{640, 480, fx, fy, cx, cy, {}};
     setup.depth_units = 1000;
     return setup;
 }

@@ -59,7 +59,7 @@ class CoveredClip : public testing::TestWithParam<Clip> {
         if (!fs::exists(folder)) GTEST_SKIP() << "no clip in " << folder;
         setVerbosity(Verbosity::Quiet);
         CameraSetup setup;
-        setup.camera = Camera{640, 480, clip.f, clip.f, clip.cx, clip.cy, {}};
+        setup.camera = Intrinsics{640, 480, clip.f, clip.f, clip.cx, clip.cy, {}};
         setup.depth_units = 1000;
         importSequence(readTumSequence(folder), setup, folder_ / "clip.rawlog", {});
         job_.rawlog = folder_ / "covered.rawlog";

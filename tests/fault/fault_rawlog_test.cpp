@@ -404,7 +404,8 @@ TEST_F(FaultRawlog, depthUnitThatIsNone) {
 /** \return three frames of that size, gray squares 1 m away */
 Film filmOfSize(int width, int height) {
     CameraSetup setup;
-    setup.camera = Camera{width, height, 0.8 * width, 0.8 * width, width / 2.0, height / 2.0, {}};
+    setup.camera =
+        Intrinsics{width, height, 0.8 * width, 0.8 * width, width / 2.0, height / 2.0, {}};
     cv::Mat squares(24, 32, CV_8UC3), color;
     cv::RNG(1).fill(squares, cv::RNG::UNIFORM, 0, 256);
     cv::resize(squares, color, {width, height}, 0, 0, cv::INTER_NEAREST);

@@ -21,7 +21,7 @@ constexpr std::size_t sparse_map_header_bytes = 24;
 
 mrpt::obs::CObservation3DRangeScan::Ptr smallFrame(double stamp_s) {
     CameraSetup setup;
-    setup.camera = Camera{8, 6, 9, 9, 3.5, 2.5, {0.1, -0.2, 0, 0, 0.1}};
+    setup.camera = Intrinsics{8, 6, 9, 9, 3.5, 2.5, BrownLens{{0.1, -0.2, 0, 0, 0.1}}};
     auto frame = makeRgbdObservation(setup, stamp_s);
     setColor(*frame, cv::Mat(6, 8, CV_8UC3, cv::Scalar(10, 20, 30)));
     setDepth(*frame, cv::Mat(6, 8, CV_16UC1, cv::Scalar(5000)));
@@ -65,7 +65,7 @@ SparseMap smallMap() {
     loop.from = 0;
     loop.to = 1;
     loop.information = Eigen::Matrix<double, 6, 6>::Identity();
-    return {takeSnapshot(map, Camera{}, 1.25, {loop}), SE3(), "hash", {{"/a.rawlog", 0}}};
+    return {takeSnapshot(map, rigOf(Camera{}), 1.25, {loop}), SE3(), "hash", {{"/a.rawlog", 0}}};
 }
 
 template <class Tree>

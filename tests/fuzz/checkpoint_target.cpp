@@ -17,7 +17,7 @@ mrpt::obs::CObservation3DRangeScan::Ptr smallFrame(const SE3& T_world_base, doub
     static const TexturedRoom room;
     static const CameraSetup setup = [] {
         CameraSetup half = room.setup();
-        half.camera = shrunk(half.camera, 2);
+        half.camera = half.camera.shrunk(2);
         return half;
     }();
     const RgbdImage image = toRgbdImage(room.film(T_world_base, stamp_s));
@@ -66,7 +66,7 @@ const SlamJob& smallJob() {
 /** \param most frames that are tracked now */
 void track(RunState& run, int most) {
     run.stream.start(
-        [&session = run.session](const RgbdImage& image) { return session.prepare(image); });
+        [&session = run.session](const auto& images) { return session.prepare(images); });
     for (int i = 0; i < most; ++i) {
         const auto frame = run.stream.next();
         if (!frame) break;

@@ -54,21 +54,22 @@ class RandomInputs {
     Camera camera() {
         for (;;) {
             const Camera camera = anyCamera();
-            if (camera.undoesDistortion()) return camera;
+            if (camera.isInvertible()) return camera;
         }
     }
 
   private:
-    Camera anyCamera() {
-        Camera camera;
+    Intrinsics anyCamera() {
+        Intrinsics camera;
         camera.width = 160 + index(1200);
         camera.height = camera.width * 3 / 4;
         camera.fx = camera.width * uniform(0.7, 1.2);
         camera.fy = camera.fx * uniform(0.95, 1.05);
         camera.cx = camera.width * uniform(0.45, 0.55);
         camera.cy = camera.height * uniform(0.45, 0.55);
-        camera.distortion = {uniform(-0.1, 0.25), uniform(-0.2, 0.1), uniform(-0.005, 0.005),
-                             uniform(-0.005, 0.005), uniform(-0.05, 0.1)};
+        const double k1 = uniform(-0.1, 0.25), k2 = uniform(-0.2, 0.1);
+        const double p1 = uniform(-0.005, 0.005), p2 = uniform(-0.005, 0.005);
+        camera.lens = BrownLens{{k1, k2, p1, p2, uniform(-0.05, 0.1)}};
         return camera;
     }
 

@@ -23,7 +23,7 @@ class TexturedRoom {
             cv::resize(blocks, wall, {pixels_a_wall, pixels_a_wall}, 0, 0, cv::INTER_NEAREST);
             cv::GaussianBlur(wall, wall, {3, 3}, 0);
         }
-        setup_.camera = Camera{320, 240, 262.5, 262.5, 159.5, 119.5, {}};
+        setup_.camera = Intrinsics{320, 240, 262.5, 262.5, 159.5, 119.5, {}};
         setup_.depth_units = 5000;
     }
 
@@ -31,7 +31,7 @@ class TexturedRoom {
 
     /** \param T_world_base of the robot, which is the sensor here */
     mrpt::obs::CObservation3DRangeScan::Ptr film(const SE3& T_world_base, double stamp_s) const {
-        const Camera& camera = setup_.camera;
+        const Camera camera = setup_.camera;
         cv::Mat color(camera.height, camera.width, CV_8UC3);
         cv::Mat depth(camera.height, camera.width, CV_16UC1);
         const SE3 T_world_cam = T_world_base * T_optical_from_mrpt.inverse();

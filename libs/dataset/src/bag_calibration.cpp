@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lens_fit.h"
 #include "lower_case.h"
+#include "ros_lens.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -38,15 +38,14 @@ bool isRectified(const std::string& topic) {
     return contains(lowerCase(topic), "image_rect");
 }
 
-Camera cameraOf(const ros::CameraInfo& info, bool rectified, double& worst_px) {
-    worst_px = 0;
-    Camera camera{static_cast<int>(info.width),
-                  static_cast<int>(info.height),
-                  info.K[0],
-                  info.K[4],
-                  info.K[2],
-                  info.K[5],
-                  {}};
+Intrinsics pinholeOf(const ros::CameraInfo& info, bool rectified) {
+    Intrinsics camera{static_cast<int>(info.width),
+                      static_cast<int>(info.height),
+                      info.K[0],
+                      info.K[4],
+                      info.K[2],
+                      info.K[5],
+                      {}};
     const bool finite = std::all_of(info.P.begin(), info.P.end(),
                                     [](double value) { return std::isfinite(value); });
     if (rectified && finite && info.P[0] > 0 && info.P[5] > 0) {
@@ -54,10 +53,12 @@ Camera cameraOf(const ros::CameraInfo& info, bool rectified, double& worst_px) {
         camera.fy = info.P[5];
         camera.cx = info.P[2];
         camera.cy = info.P[6];
-        return camera;
     }
-    if (!rectified) worst_px = fitLens(info.distortion_model, info.D, camera);
     return camera;
+}
+
+std::optional<Lens> lensOf(const ros::CameraInfo& info, bool rectified) {
+    return rectified ? Lens() : lensByRosName(info.distortion_model, info.D);
 }
 
 std::optional<SE3> colorFromDepth(const BagSurvey& survey, const ImageChoice& images) {

@@ -9,11 +9,13 @@
 
 namespace rgbd_graphslam {
 
-/** Lens of a camera: Brown's model as it stands, rational and fisheye models by the coefficients of
- *  Brown's that come nearest all over the image.
- *  \param rectified whether the images have been rectified: no distortion, and P for K
- *  \param worst_px largest distance to the true model, over the image */
-Camera cameraOf(const ros::CameraInfo& info, bool rectified, double& worst_px);
+/** A camera without its lens.
+ *  \param rectified whether the images have been rectified: P for K */
+Intrinsics pinholeOf(const ros::CameraInfo& info, bool rectified);
+
+/** \param rectified whether the images have been rectified: no distortion
+ *  \return nothing for a model that is not known here */
+std::optional<Lens> lensOf(const ros::CameraInfo& info, bool rectified);
 
 /** Whether an image topic's images have been rectified, by its name. */
 bool isRectified(const std::string& topic);

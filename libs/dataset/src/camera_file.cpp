@@ -62,22 +62,22 @@ class CameraFile {
         checkKeys();
     }
 
-    Camera camera() {
-        completeDistortion();
-        if (!has("dist")) config_.write(section, "dist", std::string("[0 0 0 0 0]"));
-        if (!has("distortion_model")) {
-            config_.write(section, "distortion_model", std::string("plumb_bob"));
-        }
+    Intrinsics camera() {
+        const Lens lens = lensOfFile();
+        config_.write(section, "distortion_model", std::string("none"));
+        config_.write(section, "dist", std::string("[0 0 0 0 0]"));
         mrpt::img::TCamera camera;
         try {
             camera.loadFromConfigFile(section, config_);
         } catch (const std::exception&) {
-            refuse("distortion_model must be none or plumb_bob");
+            refuse("MRPT cannot read it");
         }
-        checkLens(camera);
-        const Camera own = toCamera(camera);
-        if (!own.contains({own.cx, own.cy})) refusePrincipalPoint(own);
-        if (!own.undoesDistortion()) refuse("dist: this distortion cannot be undone in the image");
+        checkPinhole(camera);
+        Intrinsics own = toCamera(camera);
+        own.lens = lens;
+        if (!CameraModel(own).contains({own.cx, own.cy})) refusePrincipalPoint(own);
+        if (!CameraModel(own).isInvertible())
+            refuse("dist: this distortion cannot be undone in the image");
         return own;
     }
 
@@ -104,7 +104,7 @@ class CameraFile {
     }
 
     /** Images of a few pixels leave no room for doubts. */
-    [[noreturn]] void refusePrincipalPoint(const Camera& camera) const {
+    [[noreturn]] void refusePrincipalPoint(const Intrinsics& camera) const {
         const auto doubts = doubtsOf(camera);
         refuse(doubts.empty() ? "the principal point is outside the image" : doubts.front());
     }
@@ -151,15 +151,21 @@ class CameraFile {
         }
     }
 
-    /** MRPT wants five coefficients; four are those of OpenCV without k3. */
-    void completeDistortion() {
+    /** Read here rather than by MRPT, which mixes up the coefficients of a fisheye. */
+    Lens lensOfFile() const {
         const std::string model = config_.read_string(section, "distortion_model", "plumb_bob");
-        if (!has("dist") || model == "kannala_brandt") return;
-        const auto n = numbersOf("dist");
-        if (n.size() != 4) return;
-        std::string five = "[";
-        for (const double coefficient : n) five += shortest(coefficient) + " ";
-        config_.write(section, "dist", five + "0]");
+        const auto coefficients = has("dist") ? numbersOf("dist") : std::vector<double>();
+        const std::size_t n = coefficients.size();
+        if (model == "none") return {};
+        if (model == "plumb_bob") {
+            if (n != 0 && n != 4 && n != 5 && n != 8)
+                refuse("dist must be [k1 k2 p1 p2], [k1 k2 p1 p2 k3] or [k1 k2 p1 p2 k3 k4 k5 k6]");
+            return makeLens("rational", coefficients);
+        }
+        if (model != "kannala_brandt")
+            refuse("distortion_model must be none, plumb_bob or kannala_brandt");
+        if (n != 4) refuse("dist must be [k1 k2 k3 k4] for kannala_brandt");
+        return makeLens("kannala_brandt", coefficients);
     }
 
     void checkKeys() const {
@@ -177,21 +183,11 @@ class CameraFile {
         if (!has("resolution") || numbersOf("resolution").size() != 2) {
             refuse("resolution must be [columns rows]");
         }
-        const auto coefficients = numbersOf("dist").size();
-        if (has("dist") && coefficients != 4 && coefficients != 5 && coefficients != 8) {
-            refuse("dist must be [k1 k2 p1 p2] or [k1 k2 p1 p2 k3]");
-        }
     }
 
-    void checkLens(const mrpt::img::TCamera& camera) const {
+    void checkPinhole(const mrpt::img::TCamera& camera) const {
         if (camera.fx() <= 0 || camera.fy() <= 0) refuse("fx and fy must be positive");
         if (camera.ncols == 0 || camera.nrows == 0) refuse("resolution must be positive");
-        if (camera.distortion == mrpt::img::DistortionModel::kannala_brandt) {
-            refuse("fish-eye lenses are not supported, undistort the images first");
-        }
-        if (camera.k4() != 0 || camera.k5() != 0 || camera.k6() != 0) {
-            refuse("rational lens models (k4 to k6) are not supported, undistort the images first");
-        }
     }
 
     std::string path_;
@@ -213,12 +209,14 @@ bool sameMotion(const SE3& a, const SE3& b) {
 CameraSetup setupOf(const std::string& name, double fx, double fy, double cx, double cy,
                     const std::array<double, 5>& distortion) {
     CameraSetup setup;
+    BrownLens brown;
     setup.name = name;
     setup.camera.fx = fx;
     setup.camera.fy = fy;
     setup.camera.cx = cx;
     setup.camera.cy = cy;
-    setup.camera.distortion = distortion;
+    std::copy(distortion.begin(), distortion.end(), brown.coefficients.begin());
+    setup.camera.lens = brown;
     return setup;
 }
 
@@ -261,7 +259,7 @@ std::optional<CameraSetup> cameraByFolderName(const std::string& folder) {
     return std::nullopt;
 }
 
-std::vector<std::string> doubtsOf(const Camera& camera) {
+std::vector<std::string> doubtsOf(const Intrinsics& camera) {
     constexpr double narrowest_deg = 15, widest_deg = 150, farthest_off = 0.25;
     const double off_x = std::abs(camera.cx - 0.5 * (camera.width - 1)) / camera.width;
     const double off_y = std::abs(camera.cy - 0.5 * (camera.height - 1)) / camera.height;
@@ -288,7 +286,7 @@ std::vector<std::string> doubtsOf(const Camera& camera) {
     return doubts;
 }
 
-std::optional<Camera> resizedTo(const Camera& camera, int width, int height) {
+std::optional<Intrinsics> resizedTo(const Intrinsics& camera, int width, int height) {
     constexpr int largest_factor = 8;
     const int more = std::max(width, camera.width), less = std::min(width, camera.width);
     const bool same_aspect =
@@ -297,14 +295,7 @@ std::optional<Camera> resizedTo(const Camera& camera, int width, int height) {
         return std::nullopt;
     }
     const double factor = static_cast<double>(width) / camera.width;
-    Camera resized = camera;
-    resized.width = width;
-    resized.height = height;
-    resized.fx *= factor;
-    resized.fy *= factor;
-    resized.cx = (camera.cx + 0.5) * factor - 0.5;  // pixel (0, 0) is a pixel's center
-    resized.cy = (camera.cy + 0.5) * factor - 0.5;
-    return resized;
+    return scaled(camera, factor, width, height);
 }
 
 CameraSetup readCameraFile(const std::string& path) {
@@ -321,14 +312,18 @@ CameraSetup readCameraFile(const std::string& path) {
 }
 
 std::string toIniText(const CameraSetup& setup) {
-    const Camera& camera = setup.camera;
+    const Intrinsics& camera = setup.camera;
     std::ostringstream out;
     out << "[" << section << "]\nresolution = [" << camera.width << " " << camera.height << "]\n";
     out << "fx = " << shortest(camera.fx) << "\nfy = " << shortest(camera.fy) << "\n";
     out << "cx = " << shortest(camera.cx) << "\ncy = " << shortest(camera.cy) << "\n";
-    out << "distortion_model = " << (camera.hasDistortion() ? "plumb_bob" : "none") << "\ndist = [";
-    out << shortest(camera.distortion[0]);
-    for (int i = 1; i < 5; ++i) out << " " << shortest(camera.distortion[i]);
+    const std::string model = lensModel(camera.lens);
+    out << "distortion_model = " << (model == "rational" ? "plumb_bob" : model) << "\ndist = [";
+    const char* separator = "";
+    for (const double k : lensCoefficients(camera.lens)) {
+        out << separator << shortest(k);
+        separator = " ";
+    }
     out << "]\n";
     out << "depth_units = " << shortest(setup.depth_units) << "\n";
     if (setup.depth_scale != 1) out << "depth_scale = " << shortest(setup.depth_scale) << "\n";

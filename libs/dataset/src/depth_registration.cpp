@@ -12,8 +12,7 @@ DepthRegistration::DepthRegistration(const Camera& depth, const Camera& color,
     rays_.reserve(static_cast<std::size_t>(depth.width) * depth.height);
     for (int v = 0; v < depth.height; ++v) {
         for (int u = 0; u < depth.width; ++u) {
-            const Eigen::Vector2d pixel = depth.undistort({u, v});
-            rays_.push_back(depth.unproject(pixel.x(), pixel.y(), 1));
+            rays_.push_back(depth.unproject(u, v, 1));
         }
     }
 }
@@ -21,6 +20,7 @@ DepthRegistration::DepthRegistration(const Camera& depth, const Camera& color,
 cv::Mat DepthRegistration::operator()(const cv::Mat& depth) const {
     cv::Mat1w registered(color_.height, color_.width, std::uint16_t{0});
     const cv::Mat1w readings = depth;
+    const Eigen::Vector2d color_px = color_.pixelsPerRadian(), depth_px = depth_.pixelsPerRadian();
     std::size_t ray = 0;
     for (int v = 0; v < depth_.height; ++v) {
         for (int u = 0; u < depth_.width; ++u, ++ray) {
@@ -29,23 +29,25 @@ cv::Mat DepthRegistration::operator()(const cv::Mat& depth) const {
             const Eigen::Vector3d point = T_color_depth_ * (z * rays_[ray]);
             if (point.z() <= 0) continue;
             const double half = 0.5 * z / point.z();
-            place(point, half * color_.fx / depth_.fx, half * color_.fy / depth_.fy, registered);
+            place(point, (half * color_px).cwiseQuotient(depth_px), registered);
         }
     }
     return registered;
 }
 
-void DepthRegistration::place(const Eigen::Vector3d& point_m, double reach_x, double reach_y,
+void DepthRegistration::place(const Eigen::Vector3d& point_m, const Eigen::Vector2d& reach_px,
                               cv::Mat1w& to) const {
     const double units = std::round(point_m.z() / unit_m_);
     if (units < 1 || units > std::numeric_limits<std::uint16_t>::max()) return;
-    const Eigen::Vector2d center = color_.distort(color_.project(point_m));
+    const Eigen::Vector2d center = color_.project(point_m);
     if (!(center.array().abs() < 1e6).all()) return;
     const auto reading = static_cast<std::uint16_t>(units);
-    const int left = std::max(0, static_cast<int>(std::ceil(center.x() - reach_x)));
-    const int right = std::min(to.cols - 1, static_cast<int>(std::floor(center.x() + reach_x)));
-    const int top = std::max(0, static_cast<int>(std::ceil(center.y() - reach_y)));
-    const int bottom = std::min(to.rows - 1, static_cast<int>(std::floor(center.y() + reach_y)));
+    const int left = std::max(0, static_cast<int>(std::ceil(center.x() - reach_px.x())));
+    const int right =
+        std::min(to.cols - 1, static_cast<int>(std::floor(center.x() + reach_px.x())));
+    const int top = std::max(0, static_cast<int>(std::ceil(center.y() - reach_px.y())));
+    const int bottom =
+        std::min(to.rows - 1, static_cast<int>(std::floor(center.y() + reach_px.y())));
     for (int v = top; v <= bottom; ++v) {
         for (int u = left; u <= right; ++u) {
             if (to(v, u) == 0 || reading < to(v, u)) to(v, u) = reading;

@@ -19,7 +19,7 @@ std::string sizeText(cv::Size size) {
     return std::to_string(size.width) + "x" + std::to_string(size.height);
 }
 
-cv::Size sizeOf(const Camera& camera) {
+cv::Size sizeOf(const Intrinsics& camera) {
     return {camera.width, camera.height};
 }
 
@@ -27,7 +27,7 @@ bool sameAspect(cv::Size a, cv::Size b) {
     return std::int64_t{a.width} * b.height == std::int64_t{b.width} * a.height;
 }
 
-std::string valuesText(const Camera& camera) {
+std::string valuesText(const Intrinsics& camera) {
     return "resolution = [" + std::to_string(camera.width) + " " + std::to_string(camera.height) +
            "], fx = " + shortest(camera.fx) + ", fy = " + shortest(camera.fy) +
            ", cx = " + shortest(camera.cx) + ", cy = " + shortest(camera.cy);
@@ -40,8 +40,8 @@ std::string valuesText(const Camera& camera) {
 }
 
 /** The calibration for images of this size; `note` says when it was another. */
-Camera fitted(const Camera& camera, const std::string& name, const std::string& file, cv::Size size,
-              std::vector<std::string>& notes) {
+Intrinsics fitted(const Intrinsics& camera, const std::string& name, const std::string& file,
+                  cv::Size size, std::vector<std::string>& notes) {
     if (size == sizeOf(camera)) return camera;
     const auto resized = resizedTo(camera, size.width, size.height);
     if (!resized) refuseSize(file, size, sizeOf(camera));

@@ -11,6 +11,7 @@
 
 #include "plain_yaml.h"
 #include "rgbd_graphslam/core/error.h"
+#include "ros_lens.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;
@@ -122,7 +123,7 @@ class Calibration {
                     "mend it, or give the camera as an ini file, see ini/camera_fr1.ini");
     }
 
-    void setSize(Camera& camera) const {
+    void setSize(Intrinsics& camera) const {
         const auto resolution = numbersOf(node_, {"resolution", "image_size"});
         const bool as_list = resolution.size() == 2;
         const double width = as_list ? resolution[0] : numberOf(node_, width_keys, 0);
@@ -134,7 +135,7 @@ class Calibration {
         camera.height = static_cast<int>(height);
     }
 
-    void setIntrinsics(Camera& camera) const {
+    void setIntrinsics(Intrinsics& camera) const {
         const double missing = std::nan("");
         std::vector<double> f = {numberOf(node_, {"fx"}, missing), numberOf(node_, {"fy"}, missing),
                                  numberOf(node_, {"cx", "ppx"}, missing),
@@ -154,35 +155,34 @@ class Calibration {
         camera.cy = f[3];
     }
 
-    void setDistortion(Camera& camera) const {
+    void setDistortion(Intrinsics& camera) const {
         const auto coefficients = numbersOf(node_, distortion_keys);
-        const bool none =
-            std::all_of(coefficients.begin(), coefficients.end(), [](double c) { return c == 0; });
-        if (none) return;
-        for (const std::string& key : model_keys) {
-            const Json* model = firstOf(node_, {key});
-            if (model && model->is_string()) checkModel(lowerCase(model->get<std::string>()));
+        for (const double c : coefficients) {
+            if (!std::isfinite(c)) refuse("a distortion coefficient is no number");
         }
-        for (std::size_t i = 0; i < coefficients.size(); ++i) {
-            if (!std::isfinite(coefficients[i])) refuse("a distortion coefficient is no number");
-            if (i < 5) camera.distortion[i] = coefficients[i];
-            if (i >= 5 && coefficients[i] != 0) {
-                refuse("rational lens models (k4 to k6) are not supported, undistort the images");
-            }
+        const std::string model = lensModelName();
+        const auto lens = lensByRosName(model, coefficients);
+        if (!lens) {
+            refuse("the lens model '" + model + "' with " + std::to_string(coefficients.size()) +
+                   " coefficients is not supported, undistort the images");
         }
-        Camera sized = camera;
+        camera.lens = coefficients.empty() ? Lens() : *lens;
+        Intrinsics sized = camera;
         if (sized.width == 0) sized.width = static_cast<int>(std::min(1e4, 2 * camera.cx));
         if (sized.height == 0) sized.height = static_cast<int>(std::min(1e4, 2 * camera.cy));
-        if (!sized.undoesDistortion()) refuse("this distortion cannot be undone in the image");
+        if (!CameraModel(sized).isInvertible())
+            refuse("this distortion cannot be undone in the image");
     }
 
-    void checkModel(const std::string& model) const {
-        for (const char* other : {"inverse", "kannala", "equidistant", "fisheye", "theta", "omni",
-                                  "eucm", "fov", "double"}) {
-            if (model.find(other) != std::string::npos) {
-                refuse("the lens model '" + model + "' is not supported, undistort the images");
-            }
+    /** All that the file calls model: `camera_model` often names the projection only. */
+    std::string lensModelName() const {
+        std::string names;
+        for (const std::string& key : model_keys) {
+            const Json* model = firstOf(node_, {key});
+            if (model && model->is_string())
+                names += (names.empty() ? "" : " ") + model->get<std::string>();
         }
+        return names;
     }
 
     /** Units per meter, or meters per unit where below 1. */

@@ -28,7 +28,7 @@ CameraSetup pinhole(const std::string& name, double fx, double fy, double cx, do
 /** The camera that the benchmark's page gives for all sequences. */
 CameraSetup bonnCamera() {
     CameraSetup setup = pinhole("bonn", 542.822841, 542.576870, 315.593520, 237.756098, 5000);
-    setup.camera.distortion = {0.039903, -0.099343, -0.000730, -0.000144, 0};
+    setup.camera.lens = BrownLens{{0.039903, -0.099343, -0.000730, -0.000144}};
     return setup;
 }
 
@@ -56,7 +56,7 @@ std::optional<CameraSetup> cameraInFolder(const RgbdSequence& sequence) {
 
 }  // namespace
 
-void completeImageSize(const RgbdSequence& sequence, Camera& camera) {
+void completeImageSize(const RgbdSequence& sequence, Intrinsics& camera) {
     if ((camera.width > 0 && camera.height > 0) || sequence.color.empty()) return;
     const auto image = readColorImage(fs::path(sequence.folder) / sequence.color.front().file);
     if (!image.damage.empty()) throw Error("image " + image.damage, "fetch the sequence again");

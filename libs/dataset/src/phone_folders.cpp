@@ -30,7 +30,7 @@ CameraSetup phoneCamera(const std::string& name, const std::string& first_color_
     return setup;
 }
 
-void setIntrinsics(Camera& camera, double fx, double fy, double cx, double cy,
+void setIntrinsics(Intrinsics& camera, double fx, double fy, double cx, double cy,
                    const std::string& file) {
     const bool usable = fx > 0 && fy > 0 && std::isfinite(fx + fy) && std::isfinite(cx + cy);
     if (!usable) throw Error("'" + file + "' has no usable fx, fy, cx, cy", "see --camera");

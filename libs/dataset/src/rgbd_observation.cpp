@@ -44,15 +44,6 @@ void checkContents(const CObservation3DRangeScan& observation) {
     if (!observation.range_is_depth) refuse(observation, "ranges along rays instead of depth");
 }
 
-/** Their coefficients would be read as those of the plumb-bob model. */
-void refuseOtherLenses(const CObservation3DRangeScan& observation) {
-    const mrpt::img::TCamera& camera = observation.cameraParamsIntensity;
-    const bool is_rational = camera.k4() != 0 || camera.k5() != 0 || camera.k6() != 0;
-    if (camera.distortion == mrpt::img::DistortionModel::kannala_brandt || is_rational) {
-        refuse(observation, "its lens model is a fisheye or rational one, which is not supported");
-    }
-}
-
 bool allFinite(const SE3& pose) {
     return pose.R.allFinite() && pose.t.allFinite();
 }
@@ -111,7 +102,7 @@ cv::Size colorSize(const CObservation3DRangeScan& observation) {
     return {static_cast<int>(image.getWidth()), static_cast<int>(image.getHeight())};
 }
 
-void sayResized(const Camera& camera, const Camera& resized) {
+void sayResized(const Intrinsics& camera, const Intrinsics& resized) {
     static std::once_flag said;
     std::call_once(said, [&] {
         char text[240];
@@ -125,8 +116,8 @@ void sayResized(const Camera& camera, const Camera& resized) {
 }
 
 /** A calibration for images of this size, if one for another size can be made to fit. */
-Camera fitted(const mrpt::img::TCamera& calibration, cv::Size size) {
-    const Camera camera = toCamera(calibration);
+Intrinsics fitted(const mrpt::img::TCamera& calibration, cv::Size size) {
+    const Intrinsics camera = toCamera(calibration);
     const bool unknown = size.area() == 0 || camera.width == 0 || camera.height == 0;
     if (unknown || size == cv::Size(camera.width, camera.height)) return camera;
     const auto resized = resizedTo(camera, size.width, size.height);
@@ -140,24 +131,19 @@ SE3 colorFromDepth(const CObservation3DRangeScan& observation) {
            T_optical_from_mrpt.inverse();
 }
 
-bool same(const Camera& a, const Camera& b) {
-    return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
-           a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion;
-}
-
 bool isIdentity(const SE3& T) {
     return T.t.norm() < 1e-5 && (T.R - Eigen::Matrix3d::Identity()).norm() < 1e-5;
 }
 
 /** What registers depth of an observation: the same for all of a recording, and slow to make. */
 struct Registrar {
-    Camera depth, color;
+    Intrinsics depth, color;
     SE3 T_color_depth;
     double unit_m = 0;
     std::shared_ptr<const DepthRegistration> registration;
 
     bool serves(const Registrar& other) const {
-        return same(depth, other.depth) && same(color, other.color) && unit_m == other.unit_m &&
+        return depth == other.depth && color == other.color && unit_m == other.unit_m &&
                T_color_depth.R == other.T_color_depth.R && T_color_depth.t == other.T_color_depth.t;
     }
 };
@@ -181,9 +167,9 @@ std::shared_ptr<const DepthRegistration> registrationBy(Registrar wanted) {
 /** \throws Error when the two cameras cannot lie so */
 void checkDepthCamera(const CObservation3DRangeScan& observation, const Registrar& cameras) {
     constexpr double farthest_apart_m = 0.5, widest_turn = 0.7;  // rad
-    const Camera& depth = cameras.depth;
+    const Intrinsics& depth = cameras.depth;
     if (!(depth.fx > 0 && depth.fy > 0) || !std::isfinite(depth.fx * depth.fy) ||
-        !std::isfinite(depth.cx + depth.cy) || !depth.undoesDistortion()) {
+        !std::isfinite(depth.cx + depth.cy) || !CameraModel(depth).isInvertible()) {
         refuse(observation, "depth is of another camera, whose calibration is unusable");
     }
     const SE3& T = cameras.T_color_depth;
@@ -202,7 +188,7 @@ cv::Mat registeredDepth(const CObservation3DRangeScan& observation, const cv::Ma
     cameras.depth = fitted(observation.cameraParams, depth.size());
     cameras.T_color_depth = colorFromDepth(observation);
     cameras.unit_m = observation.rangeUnits;
-    if (same(cameras.depth, cameras.color) && isIdentity(cameras.T_color_depth)) return depth;
+    if (cameras.depth == cameras.color && isIdentity(cameras.T_color_depth)) return depth;
     if (cameras.color.width == 0) {
         cameras.color.width = color_size.width;
         cameras.color.height = color_size.height;
@@ -242,10 +228,9 @@ RgbdImage toRgbdImage(const CObservation3DRangeScan::Ptr& observation) {
     return image;
 }
 
-Camera cameraOf(const CObservation3DRangeScan& observation) {
+Intrinsics cameraOf(const CObservation3DRangeScan& observation) {
     constexpr int largest_image_px = 1 << 16;
-    refuseOtherLenses(observation);
-    const Camera stated = toCamera(observation.cameraParamsIntensity);
+    const Intrinsics stated = toCamera(observation.cameraParamsIntensity);
     const bool has_focus = stated.fx > 0 && stated.fy > 0 && std::isfinite(stated.fx * stated.fy);
     if (!has_focus || !std::isfinite(stated.cx + stated.cy)) {
         refuse(observation, "its calibration has no usable fx, fy, cx, cy");
@@ -255,8 +240,8 @@ Camera cameraOf(const CObservation3DRangeScan& observation) {
             refuse(observation, "its calibration is for images of an impossible size");
         }
     }
-    const Camera camera = fitted(observation.cameraParamsIntensity, colorSize(observation));
-    if (!camera.undoesDistortion()) {
+    const Intrinsics camera = fitted(observation.cameraParamsIntensity, colorSize(observation));
+    if (!CameraModel(camera).isInvertible()) {
         refuse(observation, "its calibration has a lens distortion that cannot be undone");
     }
     return camera;
@@ -264,6 +249,10 @@ Camera cameraOf(const CObservation3DRangeScan& observation) {
 
 SE3 cameraOnRobot(const CObservation3DRangeScan& observation) {
     return toSE3(observation.sensorPose) * toSE3(observation.relativePoseIntensityWRTDepth);
+}
+
+RigCamera rigCameraOf(const CObservation3DRangeScan& observation) {
+    return {observation.sensorLabel, cameraOf(observation), cameraOnRobot(observation)};
 }
 
 CObservation3DRangeScan::Ptr makeRgbdObservation(const CameraSetup& setup, double stamp_s) {

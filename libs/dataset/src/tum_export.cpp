@@ -82,14 +82,15 @@ struct CameraExport {
 };
 
 /** The calibration, made to fit the images where it is for a whole multiple of their size. */
-Camera fittedTo(const cv::Size& image, const Camera& camera, std::vector<std::string>& notes) {
+Intrinsics fittedTo(const cv::Size& image, const Intrinsics& camera,
+                    std::vector<std::string>& notes) {
     if (camera.width == image.width && camera.height == image.height) return camera;
     const auto text = [](int width, int height) {
         return std::to_string(width) + "x" + std::to_string(height);
     };
     const std::string sizes = "the calibration is for " + text(camera.width, camera.height) +
                               " pixels, the images have " + text(image.width, image.height);
-    Camera fitted = camera;
+    Intrinsics fitted = camera;
     fitted.width = image.width;
     fitted.height = image.height;
     if (camera.width == 0 || camera.height == 0) return fitted;

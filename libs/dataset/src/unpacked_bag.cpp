@@ -27,7 +27,6 @@ namespace {
  *  these cannot hold. */
 constexpr double fine_units = 5000, coarse_units = 1000, most_reading = 65535;
 /** A lens fit worse than this is told, px. */
-constexpr double good_lens_fit_px = 1;
 
 /** Without the rounding of a unit that was stored in 32 bits. */
 double unitsPerMetre(float unit_m) {
@@ -66,26 +65,17 @@ std::string describe(const BagSurvey& survey, const ImageTopic& image) {
     return text;
 }
 
-/** A calibration as recorded; says where the lens's model is only come near to. */
-Camera calibrated(const ros::CameraInfo& info, const ImageTopic& image,
-                  std::vector<std::string>& notes) {
-    double worst_px = 0;
-    Camera camera = cameraOf(info, isRectified(image.name), worst_px);
-    if (!camera.undoesDistortion()) {
-        camera.distortion = {};
-        worst_px = std::numeric_limits<double>::infinity();
-    }
-    if (std::isinf(worst_px)) {
-        sayWarning("the lens of '" + image.name + "' (" + info.distortion_model +
-                   ") cannot be modelled; its distortion is left out. Rectify the images first");
-    } else if (worst_px > 0) {
-        char text[96];
-        std::snprintf(text, sizeof text, ": lens model %s fitted within %.2f px",
-                      info.distortion_model.c_str(), worst_px);
-        (worst_px > good_lens_fit_px ? sayWarning : sayDetail)("'" + image.name + "'" + text);
-        notes.push_back(image.name + text);
-    }
-    return camera;
+/** A calibration as recorded, without a lens that cannot be modelled. */
+Intrinsics calibrated(const ros::CameraInfo& info, const ImageTopic& image) {
+    const bool rectified = isRectified(image.name);
+    const Intrinsics pinhole = pinholeOf(info, rectified);
+    Intrinsics camera = pinhole;
+    const auto lens = lensOf(info, rectified);
+    if (lens) camera.lens = *lens;
+    if (lens && CameraModel(camera).isInvertible()) return camera;
+    sayWarning("the lens of '" + image.name + "' (" + info.distortion_model +
+               ") cannot be modelled; its distortion is left out. Rectify the images first");
+    return pinhole;
 }
 
 /** Makes a sequence of what a survey found. */
@@ -131,7 +121,7 @@ class SequenceOfBag {
             setup = *by_name;
             sequence_.notes.push_back("calibration: " + by_name->name + ", by the file's name");
         } else if (info) {
-            setup.camera = calibrated(*info, images_.color, sequence_.notes);
+            setup.camera = calibrated(*info, images_.color);
             setup.name = "CameraInfo";
         } else {
             setup.camera.width = images_.color.width;
@@ -173,7 +163,7 @@ class SequenceOfBag {
     void placeDepthCamera(const ros::CameraInfo& info, const SE3& T_color_depth) {
         CameraSetup setup;
         setup.name = "CameraInfo";
-        setup.camera = calibrated(info, images_.depth, sequence_.notes);
+        setup.camera = calibrated(info, images_.depth);
         setup.depth_units = *sequence_.depth_units;
         setup.T_base_sensor = sequence_.camera->T_base_sensor * T_optical_from_mrpt.inverse() *
                               T_color_depth * T_optical_from_mrpt;

@@ -25,8 +25,7 @@ std::vector<Eigen::Vector3d> raysOf(const Camera& camera) {
     rays.reserve(static_cast<std::size_t>(camera.width) * camera.height);
     for (int v = 0; v < camera.height; ++v) {
         for (int u = 0; u < camera.width; ++u) {
-            const Eigen::Vector2d pixel = camera.undistort({u, v});
-            rays.push_back(camera.unproject(pixel.x(), pixel.y(), 1));
+            rays.push_back(camera.unproject(u, v, 1));
         }
     }
     return rays;

@@ -11,14 +11,6 @@ namespace {
 
 constexpr double near_m = 0.05;
 
-Camera halved(Camera camera) {
-    camera.width /= 2;
-    camera.height /= 2;
-    for (double* length : {&camera.fx, &camera.fy}) *length /= 2;
-    for (double* center : {&camera.cx, &camera.cy}) *center = (*center - 0.5) / 2;
-    return camera;
-}
-
 struct Pixels {
     int u0, v0, u1, v1;
 };
@@ -45,7 +37,7 @@ Pixels boundsOf(const std::array<Eigen::Vector3d, 3>& corners, const Camera& cam
 SurfaceSight::SurfaceSight(const PlyModel& surface, const Camera& camera, const Trajectory& cameras,
                            const SightOptions& options)
     : surface_(surface),
-      camera_(halved(camera)),
+      camera_(camera.pinhole().shrunk(2)),
       options_(options),
       least_cosine_(std::cos(options.max_incidence_deg * M_PI / 180)) {
     if (surface.triangles.empty()) {

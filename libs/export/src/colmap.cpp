@@ -63,7 +63,7 @@ class TrackedPoints {
         std::vector<ColmapFeature> features;
         for (const auto& [point, direction] : in_keyframe_[keyframe]) {
             const Camera& c = image.camera;
-            const Eigen::Vector2d pixel(c.fx * direction.x() + c.cx, c.fy * direction.y() + c.cy);
+            const Eigen::Vector2d pixel = c.fromPlane(direction);
             if (!c.contains(pixel)) continue;
             const cv::Vec3b bgr = image.color(static_cast<int>(std::lround(pixel.y())),
                                               static_cast<int>(std::lround(pixel.x())));

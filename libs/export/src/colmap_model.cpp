@@ -45,7 +45,7 @@ std::vector<Track> tracksOf(const ColmapModel& model) {
 }  // namespace
 
 std::string colmapCameras(const ColmapModel& model) {
-    const Camera& c = model.camera;
+    const Intrinsics c = model.camera.intrinsics();
     return "# CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n" +
            formatted("1 PINHOLE %d %d %.12g %.12g %.12g %.12g\n", c.width, c.height, c.fx, c.fy,
                      c.cx + pixel_center, c.cy + pixel_center);

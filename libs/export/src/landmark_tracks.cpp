@@ -9,13 +9,15 @@ namespace {
 
 LandmarkTrack trackOf(const Landmark& landmark, const SparseMap& map) {
     const MapSnapshot& snapshot = map.snapshot;
+    const CameraModel camera = snapshot.rig.cameras.front().model.rectified();
     LandmarkTrack track;
     track.position = map.T_up_world * landmark.position;
     for (const Observation& observation : landmark.observations) {
         const Keypoint& keypoint =
             snapshot.keyframes[observation.keyframe].frame.keypoints[observation.keypoint];
+        if (keypoint.camera != 0) continue;  // images are the first camera's
         track.seen.push_back(
-            {observation.keyframe, snapshot.camera.unproject(keypoint.u, keypoint.v, 1).head<2>()});
+            {observation.keyframe, camera.unproject(keypoint.u, keypoint.v, 1).head<2>()});
     }
     return track;
 }

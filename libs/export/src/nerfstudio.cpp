@@ -43,7 +43,7 @@ cv::Mat1w depthInMillimeters(const RunImage& image) {
     return result;
 }
 
-void describeCamera(const Camera& camera, nlohmann::json& scene) {
+void describeCamera(const Intrinsics& camera, nlohmann::json& scene) {
     scene["camera_model"] = "OPENCV";
     scene["w"] = camera.width;
     scene["h"] = camera.height;
@@ -73,7 +73,7 @@ class NerfstudioExporter : public Exporter {
         nlohmann::json scene, frames = nlohmann::json::array();
         const std::size_t images =
             forEachImage(run, options.all_frames, "nerfstudio", [&](const RunImage& image) {
-                if (frames.empty()) describeCamera(image.camera, scene);
+                if (frames.empty()) describeCamera(image.camera.intrinsics(), scene);
                 frames.push_back(writeFrame(image, out));
             });
         scene["frames"] = frames;

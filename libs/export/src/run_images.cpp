@@ -1,7 +1,6 @@
 #include "run_images.h"
 
 #include <algorithm>
-#include <opencv2/calib3d.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <optional>
@@ -14,25 +13,20 @@
 namespace rgbd_graphslam {
 namespace {
 
-cv::Matx33d matrixOf(const Camera& camera) {
-    return {camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1};
-}
-
-bool equal(const Camera& a, const Camera& b) {
-    return a.width == b.width && a.height == b.height && a.fx == b.fx && a.fy == b.fy &&
-           a.cx == b.cx && a.cy == b.cy && a.distortion == b.distortion;
-}
-
 /** Removes one camera's distortion from many images. */
 class Undistorter {
   public:
     explicit Undistorter(const Camera& camera)
         : seen_by_(camera), undistorted_(undistortedCamera(camera)) {
         if (!camera.hasDistortion()) return;
-        const auto& d = camera.distortion;
-        cv::initUndistortRectifyMap(matrixOf(camera), cv::Vec<double, 5>(d.data()), {},
-                                    matrixOf(undistorted_), {camera.width, camera.height}, CV_32FC1,
-                                    map_x_, map_y_);
+        cv::Mat2f map(camera.height, camera.width);
+        for (int v = 0; v < map.rows; ++v) {
+            for (int u = 0; u < map.cols; ++u) {
+                const Eigen::Vector2d seen = camera.project(undistorted_.unproject(u, v, 1));
+                map(v, u) = {static_cast<float>(seen.x()), static_cast<float>(seen.y())};
+            }
+        }
+        map_ = map;
     }
 
     const Camera& seenBy() const { return seen_by_; }
@@ -40,15 +34,15 @@ class Undistorter {
 
     /** \param interpolation of OpenCV; depth must not be mixed across edges */
     cv::Mat operator()(const cv::Mat& image, int interpolation) const {
-        if (map_x_.empty()) return image;
+        if (map_.empty()) return image;
         cv::Mat result;
-        cv::remap(image, result, map_x_, map_y_, interpolation);
+        cv::remap(image, result, map_, {}, interpolation);
         return result;
     }
 
   private:
     Camera seen_by_, undistorted_;
-    cv::Mat map_x_, map_y_;
+    cv::Mat map_;  // of pixels to where the sensor saw them
 };
 
 cv::Mat colorOf(const RgbdImage& image) {
@@ -76,7 +70,7 @@ class ImageReader {
   private:
     void pass(const Keyframe3D& frame, int number) {
         if (!undistorter_) undistorter_.emplace(frame.camera);
-        if (!equal(frame.camera, undistorter_->seenBy())) {
+        if (frame.camera.intrinsics() != undistorter_->seenBy().intrinsics()) {
             throw Error("the images of this run are of cameras with different calibrations",
                         "export runs of one camera only");
         }
@@ -116,21 +110,24 @@ Camera undistortedCamera(const Camera& camera) {
     // The largest rectangle inside the outline of what was seen.
     double left = -1e9, right = 1e9, top = -1e9, bottom = 1e9;
     const int w = camera.width - 1, h = camera.height - 1;
+    const auto pinholePixel = [&](double u, double v) {
+        return camera.fromPlane(camera.unproject(u, v, 1).head<2>());
+    };
     for (int v = 0; v <= h; ++v) {
-        left = std::max(left, camera.undistort({0., v}).x());
-        right = std::min(right, camera.undistort({w, v}).x());
+        left = std::max(left, pinholePixel(0, v).x());
+        right = std::min(right, pinholePixel(w, v).x());
     }
     for (int u = 0; u <= w; ++u) {
-        top = std::max(top, camera.undistort({u, 0.}).y());
-        bottom = std::min(bottom, camera.undistort({u, h}).y());
+        top = std::max(top, pinholePixel(u, 0).y());
+        bottom = std::min(bottom, pinholePixel(u, h).y());
     }
-    Camera result = camera;
-    result.distortion = {};
+    Intrinsics result = camera.intrinsics();
+    result.lens = {};
     const double scale_x = w / (right - left), scale_y = h / (bottom - top);
-    result.fx = camera.fx * scale_x;
-    result.fy = camera.fy * scale_y;
-    result.cx = (camera.cx - left) * scale_x;
-    result.cy = (camera.cy - top) * scale_y;
+    result.cx = (result.cx - left) * scale_x;
+    result.cy = (result.cy - top) * scale_y;
+    result.fx *= scale_x;
+    result.fy *= scale_y;
     return result;
 }
 

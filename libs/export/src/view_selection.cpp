@@ -135,7 +135,7 @@ float ViewSelection::score(std::size_t triangle, const ProjectedMesh& seen, cons
     const float area_px = -0.5f * signedArea2(a, b, c);
     // Area in the image over the area that the triangle would have face on.
     const float pixels_per_m2 =
-        static_cast<float>(camera.fx * camera.fy) / (middle.z() * middle.z());
+        static_cast<float>(camera.pixelsPerSteradian()) / (middle.z() * middle.z());
     const float cosine = area_px / (0.5f * normalOf(mesh_, t).norm() * pixels_per_m2);
     const float reading_m = static_cast<float>(depth(pixelOf(middle)) * depth_unit_m);
     const float agreement_m = std::max(least_tolerance_m, tolerance_share * middle.z());

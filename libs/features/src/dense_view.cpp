@@ -5,17 +5,6 @@
 
 namespace rgbd_graphslam {
 
-Camera shrunk(const Camera& camera, int block_px) {
-    Camera small;
-    small.width = camera.width / block_px;
-    small.height = camera.height / block_px;
-    small.fx = camera.fx / block_px;
-    small.fy = camera.fy / block_px;
-    small.cx = (camera.cx - 0.5 * (block_px - 1)) / block_px;
-    small.cy = (camera.cy - 0.5 * (block_px - 1)) / block_px;
-    return small;
-}
-
 double DenseView::depthShare() const {
     const auto seen = std::count_if(depth_m.begin(), depth_m.end(), [](float z) { return z > 0; });
     return empty() ? 0 : static_cast<double>(seen) / static_cast<double>(depth_m.size());
@@ -33,7 +22,7 @@ double DenseView::contrast() const {
 
 DenseView halved(const DenseView& view) {
     DenseView half;
-    half.camera = shrunk(view.camera, 2);
+    half.camera = view.camera.shrunk(2);
     for (int y = 0; y < half.camera.height; ++y) {
         for (int x = 0; x < half.camera.width; ++x) {
             float gray = 0, nearest = 0;

@@ -48,12 +48,17 @@ float nearestDepth(const cv::Mat& depth, int x, int y, int block) {
 }  // namespace
 
 DenseViewBuilder::DenseViewBuilder(const Camera& camera)
-    : block_px_(std::max(1, camera.width / small_columns)), small_(shrunk(camera, block_px_)) {
+    : block_px_(std::max(1, camera.width / small_columns)),
+      small_(camera.pinhole().shrunk(block_px_)) {
+    const Camera pinhole = camera.pinhole();
     for (int y = 0; y < small_.height; ++y) {
         for (int x = 0; x < small_.width; ++x) {
             const Eigen::Vector2d center(x * block_px_ + 0.5 * (block_px_ - 1),
                                          y * block_px_ + 0.5 * (block_px_ - 1));
-            const Eigen::Vector2d seen = camera.hasDistortion() ? camera.distort(center) : center;
+            const Eigen::Vector2d seen =
+                camera.hasDistortion()
+                    ? camera.project(pinhole.unproject(center.x(), center.y(), 1))
+                    : center;
             const auto corner = [&](double c, int size) {
                 const double first = std::lround(c - 0.5 * (block_px_ - 1));
                 return static_cast<int>(std::clamp<double>(first, 0, size - block_px_));

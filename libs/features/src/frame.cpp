@@ -7,12 +7,14 @@ namespace {
 constexpr int cell_px = 16;
 }
 
-KeypointGrid::KeypointGrid(const std::vector<Keypoint>& keypoints, int width, int height)
+KeypointGrid::KeypointGrid(const std::vector<Keypoint>& keypoints, int width, int height,
+                           int cameras)
     : columns_((width + cell_px - 1) / cell_px), rows_((height + cell_px - 1) / cell_px) {
     std::vector<int> cell_of(keypoints.size());
-    first_.assign(columns_ * rows_ + 1, 0);
+    first_.assign(columns_ * rows_ * cameras + 1, 0);
     for (std::size_t i = 0; i < keypoints.size(); ++i) {
-        cell_of[i] = clampedRow(keypoints[i].v) * columns_ + clampedColumn(keypoints[i].u);
+        const Keypoint& k = keypoints[i];
+        cell_of[i] = (k.camera * rows_ + clampedRow(k.v)) * columns_ + clampedColumn(k.u);
         ++first_[cell_of[i] + 1];
     }
     for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
@@ -28,6 +30,16 @@ int KeypointGrid::clampedColumn(float u) const {
 
 int KeypointGrid::clampedRow(float v) const {
     return std::clamp(static_cast<int>(v) / cell_px, 0, rows_ - 1);
+}
+
+void append(Frame seen, int camera, Frame& frame) {
+    for (Keypoint& keypoint : seen.keypoints) {
+        keypoint.camera = camera;
+        frame.keypoints.push_back(keypoint);
+    }
+    frame.descriptors.insert(frame.descriptors.end(), seen.descriptors.begin(),
+                             seen.descriptors.end());
+    frame.patches.insert(frame.patches.end(), seen.patches.begin(), seen.patches.end());
 }
 
 }  // namespace rgbd_graphslam

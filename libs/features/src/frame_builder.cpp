@@ -78,7 +78,7 @@ Frame FrameBuilder::build(const RgbdImage& image) const {
         keypoint.depth_m =
             foregroundDepth(image.depth, image.depth_unit_m, corner.u, corner.v, options_);
         if (distorted) {
-            const Eigen::Vector2d pixel = camera_.undistort({corner.u, corner.v});
+            const Eigen::Vector2d pixel = camera_.rectify({corner.u, corner.v});
             keypoint.u = static_cast<float>(pixel.x());
             keypoint.v = static_cast<float>(pixel.y());
         }

@@ -73,17 +73,16 @@ class KeyframeEngine : public mrpt::graphslam::CGraphSlamEngine<KeyframeGraph> {
 
 class GraphSlamSession::Implementation {
   public:
-    Implementation(const SlamOptions& options, const CObservation3DRangeScan& first_frame,
-                   std::optional<StartMap> start) {
+    Implementation(const SlamOptions& options, const Rig& rig, std::optional<StartMap> start) {
         {
             const StandardStreamsAway away;
             engine_ = std::make_unique<KeyframeEngine>(nodes_, edges_, optimizer_);
         }
         shared().options = options;
         if (start) {
-            startSlam(graph(), first_frame, std::move(*start));
+            startSlam(graph(), rig, std::move(*start));
         } else {
-            startSlam(shared(), first_frame);
+            startSlam(shared(), rig);
         }
         continueAfterNodes();
     }
@@ -129,20 +128,25 @@ class GraphSlamSession::Implementation {
     std::size_t steps_ = 0;
 };
 
-GraphSlamSession::GraphSlamSession(const SlamOptions& options,
-                                   const CObservation3DRangeScan& first_frame)
-    : impl_(std::make_unique<Implementation>(options, first_frame, std::nullopt)) {}
+GraphSlamSession::GraphSlamSession(const SlamOptions& options, const Rig& rig)
+    : impl_(std::make_unique<Implementation>(options, rig, std::nullopt)) {}
 
 GraphSlamSession::GraphSlamSession(const SlamOptions& options,
-                                   const CObservation3DRangeScan& first_frame, MapSnapshot map,
+                                   const CObservation3DRangeScan& first_frame)
+    : GraphSlamSession(options, Rig{{rigCameraOf(first_frame)}}) {}
+
+GraphSlamSession::GraphSlamSession(const SlamOptions& options, const Rig& rig, MapSnapshot map,
                                    MapUse use)
-    : impl_(std::make_unique<Implementation>(options, first_frame, StartMap{std::move(map), use})) {
-}
+    : impl_(std::make_unique<Implementation>(options, rig, StartMap{std::move(map), use})) {}
 
 GraphSlamSession::~GraphSlamSession() = default;
 
 Frame GraphSlamSession::prepare(const RgbdImage& image) const {
     return slam().prepare(image);
+}
+
+Frame GraphSlamSession::prepare(const std::vector<CameraImage>& images) const {
+    return slam().prepare(images);
 }
 
 TrackedFrame GraphSlamSession::step(const CObservation3DRangeScan::Ptr& observation,

@@ -37,17 +37,16 @@ void insert(const PoseEdge& edge, KeyframeGraph& graph) {
 
 }  // namespace
 
-void startSlam(SharedSlam& shared, const mrpt::obs::CObservation3DRangeScan& frame) {
-    shared.T_base_cam = cameraOnRobot(frame);
-    shared.slam = std::make_unique<VisualSlam>(shared.options, cameraOf(frame));
+void startSlam(SharedSlam& shared, const Rig& rig) {
+    shared.T_base_cam = rig.cameras.front().T_body_cam;
+    shared.slam = std::make_unique<VisualSlam>(shared.options, rig);
 }
 
-void startSlam(KeyframeGraph& graph, const mrpt::obs::CObservation3DRangeScan& frame,
-               StartMap start) {
+void startSlam(KeyframeGraph& graph, const Rig& rig, StartMap start) {
     SharedSlam& shared = *graph.shared;
-    shared.T_base_cam = cameraOnRobot(frame);
-    shared.slam = std::make_unique<VisualSlam>(shared.options, cameraOf(frame),
-                                               std::move(start.map), start.use);
+    shared.T_base_cam = rig.cameras.front().T_body_cam;
+    shared.slam =
+        std::make_unique<VisualSlam>(shared.options, rig, std::move(start.map), start.use);
     for (const KeyframeView& keyframe : shared.slam->keyframes()) {
         graph.nodes[keyframe.id] = {};
         if (keyframe.id > 0) insert(shared.slam->odometryEdge(keyframe.id), graph);

@@ -18,6 +18,7 @@
 
 #include "dead_reckoner.h"
 #include "rgbd_graphslam/core/bounded_queue.h"
+#include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
@@ -52,8 +53,8 @@ class FrameStream::Implementation {
           sensor_label_(sensor_label),
           source_(std::move(source)),
           queue_(static_cast<std::size_t>(ahead.frames)) {
+        findRig();
         auto frame = readFrame();
-        if (!frame) refuse();
         pending_.push_back(std::move(*frame));
     }
 
@@ -99,6 +100,7 @@ class FrameStream::Implementation {
         return coming->get();
     }
 
+    const Rig& rig() const { return rig_; }
     const CObservation3DRangeScan& firstFrame() const { return *first_; }
     const StageTimes& times() const { return times_; }
     std::size_t expectedFrames() const { return expected_frames_; }
@@ -169,36 +171,146 @@ class FrameStream::Implementation {
         return frame;
     }
 
+    /** Observations of one moment. */
     std::optional<StreamedFrame> readFrame() {
+        auto frame = nextObservation();
+        if (!frame) return frame;
+        frame->index = frames_read_++;
+        if (rig_.cameras.size() == 1) return frame;
+        while (auto other = peek()) {
+            if (!isOfSameMoment(*frame, *other)) break;
+            add(std::move(*other), *frame);
+            read_.pop_front();
+        }
+        return frame;
+    }
+
+    static bool isOfSameMoment(const StreamedFrame& frame, const StreamedFrame& other) {
+        if (other.observation->timestamp == INVALID_TIMESTAMP || frame.camera == other.camera)
+            return false;
+        for (const auto& [camera, observation] : frame.others) {
+            if (camera == other.camera) return false;
+        }
+        const double apart_s =
+            toSeconds(other.observation->timestamp) - toSeconds(frame.observation->timestamp);
+        return std::abs(apart_s) <= same_moment_s;
+    }
+
+    /** The frame is where its first observation was; what lies between the two comes before it. */
+    static void add(StreamedFrame other, StreamedFrame& frame) {
+        frame.before.insert(frame.before.end(), other.before.begin(), other.before.end());
+        if (other.camera < frame.camera) {
+            std::swap(frame.observation, other.observation);
+            std::swap(frame.camera, other.camera);
+        }
+        frame.others.emplace_back(other.camera, std::move(other.observation));
+        std::sort(frame.others.begin(), frame.others.end(),
+                  [](const auto& a, const auto& b) { return a.first < b.first; });
+    }
+
+    /** The next observation, which stays; null at the end and before damage. */
+    StreamedFrame* peek() {
+        if (read_.empty()) {
+            try {
+                if (auto next = readObservation()) read_.push_back(std::move(*next));
+            } catch (...) {
+                damage_behind_ = std::current_exception();
+            }
+        }
+        return read_.empty() ? nullptr : &read_.front();
+    }
+
+    std::optional<StreamedFrame> nextObservation() {
+        if (read_.empty()) {
+            if (damage_behind_) std::rethrow_exception(std::exchange(damage_behind_, nullptr));
+            return readObservation();
+        }
+        std::optional<StreamedFrame> next = std::move(read_.front());
+        read_.pop_front();
+        return next;
+    }
+
+    /** Reads ahead until the first camera has taken a few frames. */
+    void findRig() {
+        constexpr int frames_of_first = 4;
+        auto first = readObservation();
+        if (!first) refuse();
+        read_.push_back(std::move(*first));
+        int taken = 1;
+        try {
+            while (taken < frames_of_first) {
+                auto next = readObservation();
+                if (!next) break;
+                taken += next->camera == 0;
+                read_.push_back(std::move(*next));
+            }
+        } catch (...) {
+            damage_behind_ = std::current_exception();
+        }
+        rig_is_known_ = true;
+        while (const auto same = rig_.coincident()) leaveOut(same->first, same->second);
+    }
+
+    void leaveOut(const std::string& kept, const std::string& label) {
+        sayWarning("the RGB-D cameras '" + kept + "' and '" + label +
+                   "' have the same pose on the robot, which cannot be right: '" + label +
+                   "' is left out; correct its sensor pose, or choose one with --sensor");
+        const int gone = *rig_.find(label);
+        rig_.cameras.erase(rig_.cameras.begin() + gone);
+        std::vector<mrpt::obs::CObservation::Ptr> before;
+        std::deque<StreamedFrame> kept_frames;
+        for (StreamedFrame& frame : read_) {
+            before.insert(before.end(), frame.before.begin(), frame.before.end());
+            if (frame.camera == gone) continue;
+            frame.camera -= frame.camera > gone;
+            frame.before = std::exchange(before, {});
+            kept_frames.push_back(std::move(frame));
+        }
+        before_.insert(before_.begin(), before.begin(), before.end());
+        read_ = std::move(kept_frames);
+        const std::lock_guard<std::mutex> lock(notes_access_);
+        census_.leaveOut(label);
+    }
+
+    /** The next observation of a camera of the rig. */
+    std::optional<StreamedFrame> readObservation() {
         if (ended_) return std::nullopt;
         ended_ = true;  // for good, should reading throw
         while (const auto observation = source_->next()) {
             auto frame = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation);
-            if (!first_ && frame && isWanted(*frame)) {
-                first_ = frame;
-                camera_ = cameraOf(*frame);
-            }
+            if (frame) takeIntoRig(frame);
             note(*observation);
             if (!frame) {
                 before_.push_back(observation);
                 continue;
             }
-            if (!first_ || frame->sensorLabel != first_->sensorLabel) continue;  // another camera
+            const auto camera = rig_.find(frame->sensorLabel);
+            if (!camera) continue;  // another camera, which the sensors' list tells
             ended_ = false;
-            const std::size_t index = frames_read_++;
+            const std::size_t index = frames_read_ + read_.size();
             checkStamp(*frame, index);
-            const double share = source_->progress().value_or(1);
-            expected_frames_ = std::lround(frames_read_ / std::max(1e-9, share));
-            const DeadReckoning reckoning =
-                reckoner_.at(toSeconds(frame->timestamp), cameraOnRobot(*first_));
-            return StreamedFrame{
-                std::exchange(before_, {}), index, std::move(frame), {}, reckoning};
+            expected_frames_ =
+                std::lround((index + 1) / std::max(1e-9, source_->progress().value_or(1)) /
+                            static_cast<double>(rig_.cameras.size()));
+            StreamedFrame read;
+            read.before = std::exchange(before_, {});
+            read.index = index;
+            read.reckoning = reckoner_.at(toSeconds(frame->timestamp), cameraOnRobot(*first_));
+            read.observation = std::move(frame);
+            read.camera = *camera;
+            return read;
         }
         return std::nullopt;
     }
 
-    bool isWanted(const CObservation3DRangeScan& frame) const {
-        return sensor_label_.empty() || frame.sensorLabel == sensor_label_;
+    /** The first frame wanted is the first camera's; others belong to it from the beginning. */
+    void takeIntoRig(const CObservation3DRangeScan::Ptr& frame) {
+        if (rig_is_known_ || rig_.find(frame->sensorLabel)) return;
+        const bool wanted = sensor_label_.empty() || frame->sensorLabel == sensor_label_;
+        const bool has_images = frame->hasIntensityImage && frame->hasRangeImage;
+        if (!wanted || (first_ && !has_images)) return;
+        rig_.cameras.push_back(rigCameraOf(*frame));
+        if (!first_) first_ = frame;
     }
 
     void note(const mrpt::obs::CObservation& observation) {
@@ -212,7 +324,7 @@ class FrameStream::Implementation {
     bool isUsed(const mrpt::obs::CObservation& observation) const {
         using namespace mrpt::obs;
         if (dynamic_cast<const CObservation3DRangeScan*>(&observation))
-            return first_ && observation.sensorLabel == first_->sensorLabel;
+            return rig_.find(observation.sensorLabel).has_value();
         if (dynamic_cast<const CObservationRobotPose*>(&observation))
             return observation.sensorLabel == ground_truth_label;
         return dynamic_cast<const CObservationIMU*>(&observation) ||
@@ -228,11 +340,21 @@ class FrameStream::Implementation {
         truth_.push_back({toSeconds(pose->timestamp), T_truth_robot});
     }
 
-    void prepare(StreamedFrame& frame) {
+    RgbdImage decoded(const CObservation3DRangeScan::Ptr& observation) {
         RgbdImage image;
-        times_.measure("decode", [&] { image = toRgbdImage(frame.observation); });
-        checkSize(image, camera_, frame.index);
-        frame.prepared = prepare_(image);
+        times_.measure("decode", [&] { image = toRgbdImage(observation); });
+        return image;
+    }
+
+    void prepare(StreamedFrame& frame) {
+        std::vector<CameraImage> images = {{frame.camera, decoded(frame.observation)}};
+        for (const auto& [camera, observation] : frame.others) {
+            images.push_back({camera, decoded(observation)});
+        }
+        for (const CameraImage& image : images) {
+            checkSize(image.image, rig_.cameras[image.camera].model, frame.index);
+        }
+        frame.prepared = prepare_(images);
         frame.prepared.reckoning = frame.reckoning;
     }
 
@@ -249,8 +371,12 @@ class FrameStream::Implementation {
     std::deque<StreamedFrame> pending_;
     std::exception_ptr damage_;  // behind the pending frames
     CObservation3DRangeScan::Ptr first_;
-    Camera camera_;
     std::size_t frames_read_ = 0;
+
+    std::deque<StreamedFrame> read_;    // one observation each
+    std::exception_ptr damage_behind_;  // the observations read
+    Rig rig_;
+    bool rig_is_known_ = false;
 
     mutable std::mutex notes_access_;
     Trajectory truth_;
@@ -267,6 +393,10 @@ FrameStream::FrameStream(std::unique_ptr<ObservationSource> source, const ReadAh
     : impl_(std::make_unique<Implementation>(std::move(source), ahead, sensor_label)) {}
 
 FrameStream::~FrameStream() = default;
+
+const Rig& FrameStream::rig() const {
+    return impl_->rig();
+}
 
 const CObservation3DRangeScan& FrameStream::firstFrame() const {
     return impl_->firstFrame();

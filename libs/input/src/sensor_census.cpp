@@ -27,6 +27,12 @@ void SensorCensus::note(const mrpt::obs::CObservation& observation, bool used) {
     found->used = found->used || used;
 }
 
+void SensorCensus::leaveOut(const std::string& label) {
+    for (SensorRecord& sensor : sensors_) {
+        if (sensor.label == label) sensor.used = false;
+    }
+}
+
 std::string sensorsText(const std::vector<SensorRecord>& sensors, bool used) {
     std::string text;
     for (const SensorRecord& sensor : sensors) {

@@ -31,8 +31,8 @@ FeatureState stateOf(FeatureView::State state) {
 std::vector<LiveFeature> liveFeatures(const VisualSlam& slam, const Camera& camera) {
     std::vector<LiveFeature> features;
     for (const FeatureView& feature : slam.features()) {
-        const Eigen::Vector2d seen =
-            camera.hasDistortion() ? camera.distort(feature.pixel) : feature.pixel;
+        if (feature.camera != 0) continue;
+        const Eigen::Vector2d seen = camera.unrectify(feature.pixel);
         features.push_back(
             {static_cast<float>(seen.x()), static_cast<float>(seen.y()), stateOf(feature.state)});
     }
@@ -66,7 +66,7 @@ void LiveFeed::note(const StreamedFrame& frame, const TrackedFrame& tracked, dou
                     const GraphSlamSession& session) {
     if (!server_) return;
     addStatistic(tracked, frame_ms);
-    if (!server_->ready()) return;
+    if (!server_->ready() || frame.camera != 0) return;  // pictures are the first camera's
     const auto now = Clock::now();
     const bool wanted = server_->pictureWanted() && now >= next_picture_;
     if (wanted && now >= next_map_) {

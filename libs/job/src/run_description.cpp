@@ -62,8 +62,16 @@ void describeSensors(RunState& run) {
     run.report.sensors = run.stream.sensors();
     const std::string cameras = severalCamerasText(run.report.sensors);
     if (cameras.empty() || !run.job.sensor_label.empty()) return;
-    sayWarning("the rawlog has several RGB-D cameras: " + cameras +
-               "; --sensor LABEL chooses another");
+    const std::string first = run.stream.rig().cameras.front().label;
+    const bool all_used =
+        std::all_of(run.report.sensors.begin(), run.report.sensors.end(),
+                    [](const SensorRecord& sensor) { return sensor.used || !sensor.isRgbd(); });
+    const std::string text = "the rawlog has several RGB-D cameras: " + cameras;
+    if (all_used) {
+        sayInfo(text + "; tracked as one rig, dense maps are made of '" + first + "'");
+    } else {
+        sayWarning(text + "; --sensor LABEL chooses another");
+    }
 }
 
 void describeEarlierSessions(RunState& run) {

@@ -4,7 +4,7 @@
 
 namespace rgbd_graphslam {
 
-nlohmann::json originJson(const std::optional<Camera>& camera) {
+nlohmann::json originJson(const std::optional<Intrinsics>& camera) {
     nlohmann::json json = {
         {"command", commandText()}, {"date", localTimeText()}, {"camera", nullptr}};
     if (camera) {
@@ -14,7 +14,8 @@ nlohmann::json originJson(const std::optional<Camera>& camera) {
                           {"fy", camera->fy},
                           {"cx", camera->cx},
                           {"cy", camera->cy},
-                          {"distortion", camera->distortion}};
+                          {"lens", lensModel(camera->lens)},
+                          {"distortion", lensCoefficients(camera->lens)}};
     }
     return json;
 }

@@ -9,6 +9,6 @@ namespace rgbd_graphslam {
 
 /** {"command", "date", "camera"}: the command line as a shell takes it, the local time, and
  *  intrinsics, or null where they are not known. */
-nlohmann::json originJson(const std::optional<Camera>& camera);
+nlohmann::json originJson(const std::optional<Intrinsics>& camera);
 
 }  // namespace rgbd_graphslam

@@ -117,7 +117,7 @@ void writeMap(RunState& run) {
     sayDetail(formatted("figures of quality took %.0f ms", quality_clock.wallMs()));
     const MapInputs upright = transformed(T_up_world, inputs);
     writeAllPoses(run, upright, T_up_world);
-    run.report.camera = map.camera;
+    run.report.camera = map.rig.cameras.front().model.intrinsics();
     writeSparseMap(pathOf(run, sparse_map_name),
                    {std::move(map), T_up_world, configHash(run.job.options), run.sessions()});
     const ThreadClock clock;

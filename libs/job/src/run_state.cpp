@@ -41,8 +41,8 @@ const SlamJob& settled(SlamJob& job, const RecordingSurvey& survey) {
 
 GraphSlamSession makeSession(const SlamJob& job, const FrameStream& stream,
                              std::optional<SparseMap>& start) {
-    if (!start) return {job.options.slam, stream.firstFrame()};
-    return {job.options.slam, stream.firstFrame(), std::move(start->snapshot), job.map_use};
+    if (!start) return {job.options.slam, stream.rig()};
+    return {job.options.slam, stream.rig(), std::move(start->snapshot), job.map_use};
 }
 
 }  // namespace

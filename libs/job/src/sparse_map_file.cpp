@@ -7,7 +7,7 @@ namespace rgbd_graphslam {
 namespace {
 
 const FileKind map_file{"RGBDMAP\n",
-                        2,
+                        3,
                         "map",
                         "give the output folder of a run of rgbd-slam",
                         "give a map.sparse",

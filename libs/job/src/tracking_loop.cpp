@@ -22,7 +22,7 @@ void TrackingLoop::track(CheckpointWriter& checkpoints) {
     Progress progress("tracking", run_.stream.expectedFrames());
     // Frames are read ahead until the stream stops, which may be after this loop is gone.
     run_.stream.start(
-        [&session = run_.session](const RgbdImage& image) { return session.prepare(image); });
+        [&session = run_.session](const auto& images) { return session.prepare(images); });
     while (!finished()) {
         auto frame = nextFrame();
         if (!frame) break;
@@ -98,7 +98,7 @@ void TrackingLoop::trackOne(StreamedFrame& frame) {
     live_feed_.note(frame, tracked, run_.report.frame_times.back().wall_ms, run_.session);
     if (!tracked.keyframe) return;
     run_.noteKeyframe(*tracked.keyframe);
-    run_.keepPictures(*tracked.keyframe, frame.observation);
+    if (frame.camera == 0) run_.keepPictures(*tracked.keyframe, frame.observation);
 }
 
 std::string TrackingLoop::progressNote() const {

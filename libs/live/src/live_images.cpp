@@ -44,10 +44,9 @@ Camera imageCamera(const LiveFrame& frame) {
     if (frame.color.empty() || frame.color.size() != frame.depth.size() || frame.step < 1) {
         throw Error("a live message has no usable images");
     }
-    Camera camera = frame.camera;
+    Camera camera = Camera(frame.camera).subsampled(frame.step);
     camera.width = frame.color.cols;
     camera.height = frame.color.rows;
-    for (double* value : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *value /= frame.step;
     return camera;
 }
 

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <stdexcept>
 #include <string_view>
-#include <type_traits>
 
 #include "rgbd_graphslam/core/byte_stream.h"
 #include "rgbd_graphslam/core/error.h"
@@ -116,16 +116,32 @@ cv::Mat getImage(ByteReader& in, int type) {
     return image;
 }
 
-void put(ByteWriter& out, const Camera& camera) {
-    static_assert(std::is_trivially_copyable_v<Camera>);
-    out.putText({reinterpret_cast<const char*>(&camera), sizeof(camera)});
+void put(ByteWriter& out, const Intrinsics& camera) {
+    out.put<std::int32_t>(camera.width);
+    out.put<std::int32_t>(camera.height);
+    for (const double d : {camera.fx, camera.fy, camera.cx, camera.cy}) out.put(d);
+    out.putText(lensModel(camera.lens));
+    for (const double k : lensCoefficients(camera.lens)) out.put(k);
 }
 
-Camera getCamera(ByteReader& in) {
-    const std::string bytes = in.getText();
-    Camera camera;
-    if (bytes.size() != sizeof(camera)) throw DamagedBytes("a live message has no camera");
-    std::memcpy(&camera, bytes.data(), sizeof(camera));
+Lens getLens(ByteReader& in) {
+    const std::string model = in.getText();
+    const std::size_t count = model == "kannala_brandt" ? 4 : model == "rational" ? 8 : 5;
+    std::vector<double> coefficients(count);
+    for (double& k : coefficients) k = in.get<double>();
+    try {
+        return makeLens(model, coefficients);
+    } catch (const std::invalid_argument&) {
+        throw DamagedBytes("a live message has no camera");
+    }
+}
+
+Intrinsics getCamera(ByteReader& in) {
+    Intrinsics camera;
+    camera.width = in.get<std::int32_t>();
+    camera.height = in.get<std::int32_t>();
+    for (double* d : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *d = in.get<double>();
+    camera.lens = getLens(in);
     return camera;
 }
 

@@ -88,21 +88,18 @@ cv::Mat3b colorOf(const RgbdImage& image) {
 
 }  // namespace
 
-RayTable::RayTable(const Camera& camera) : camera_(camera) {
+RayTable::RayTable(const Camera& camera) : camera_(camera), pinhole_(camera.pinhole()) {
     directions_.reserve(static_cast<std::size_t>(camera.width) * camera.height);
     for (int v = 0; v < camera.height; ++v) {
         for (int u = 0; u < camera.width; ++u) {
-            const Eigen::Vector2d seen(u, v);
-            const Eigen::Vector2d pixel = camera.hasDistortion() ? camera.undistort(seen) : seen;
-            directions_.push_back(
-                camera.unproject(pixel.x(), pixel.y(), 1).head<2>().cast<float>());
+            directions_.push_back(camera.unproject(u, v, 1).head<2>().cast<float>());
         }
     }
     if (!camera.hasDistortion()) return;
     rectified_from_.reserve(directions_.size());
     for (int v = 0; v < camera.height; ++v) {
         for (int u = 0; u < camera.width; ++u) {
-            const Eigen::Vector2d seen = camera.distort({u, v});
+            const Eigen::Vector2d seen = camera.project(pinhole_.unproject(u, v, 1));
             const int su = static_cast<int>(std::lround(seen.x()));
             const int sv = static_cast<int>(std::lround(seen.y()));
             const bool inside = su >= 0 && sv >= 0 && su < camera.width && sv < camera.height;

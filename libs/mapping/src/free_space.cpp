@@ -17,7 +17,7 @@ class Carver {
     Carver(const SE3& T_world_cam, const DepthView& view, double resolution_m,
            const std::function<void(const VoxelCube&)>& carve)
         : sight_(view.sight),
-          camera_(view.rays.camera()),
+          camera_(view.rays.pinhole()),
           max_range_(static_cast<float>(view.max_range_m)),
           resolution_(resolution_m),
           T_world_cam_(T_world_cam),
@@ -99,8 +99,9 @@ class Carver {
         const float at_near = 1 / low.z(), at_far = 1 / high.z();
         const auto least = [&](float x) { return x * (x < 0 ? at_near : at_far); };
         const auto most = [&](float x) { return x * (x > 0 ? at_near : at_far); };
-        return {camera_.fx * least(low.x()) + camera_.cx, camera_.fy * least(low.y()) + camera_.cy,
-                camera_.fx * most(high.x()) + camera_.cx, camera_.fy * most(high.y()) + camera_.cy};
+        const Eigen::Vector2d top_left = camera_.fromPlane({least(low.x()), least(low.y())});
+        const Eigen::Vector2d bottom_right = camera_.fromPlane({most(high.x()), most(high.y())});
+        return {top_left.x(), top_left.y(), bottom_right.x(), bottom_right.y()};
     }
 
     /** What the camera's image holds of it. */

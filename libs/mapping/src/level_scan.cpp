@@ -26,7 +26,7 @@ int raysOf(const Camera& camera) {
 }
 
 float apertureOf(const Camera& camera) {
-    return static_cast<float>(2 * std::atan(0.5 * camera.width / camera.fx));
+    return static_cast<float>(camera.fieldOfView());
 }
 
 /** Obstacles in each direction, from right to left. */

@@ -38,12 +38,13 @@ std::int8_t struck(std::int8_t value) {
 
 /** Pixels that a voxel's face covers at the depth z (m). */
 double pixelsOfVoxel(const Camera& camera, double voxel_m, double z) {
-    return camera.fx * camera.fy * voxel_m * voxel_m / (z * z);
+    return camera.pixelsPerSteradian() * voxel_m * voxel_m / (z * z);
 }
 
 /** Pixels to advance so that the farthest voxel still gets two readings along each axis. */
 int samplingStep(const Camera& camera, double voxel_m, double max_range_m) {
-    return std::max(1, static_cast<int>(camera.fx * voxel_m / (2 * max_range_m)));
+    return std::max(1,
+                    static_cast<int>(camera.pixelsPerRadian().x() * voxel_m / (2 * max_range_m)));
 }
 
 }  // namespace

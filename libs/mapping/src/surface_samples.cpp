@@ -7,9 +7,10 @@ namespace {
 
 /** Length of the longest ray for z = 1. */
 double widest(const Camera& camera) {
-    const double x = std::max(camera.cx, camera.width - camera.cx) / camera.fx;
-    const double y = std::max(camera.cy, camera.height - camera.cy) / camera.fy;
-    return Eigen::Vector3d(x, y, 1).norm();
+    const Eigen::Vector2d first = camera.toPlane({0, 0});
+    const Eigen::Vector2d last = camera.toPlane({camera.width, camera.height});
+    const Eigen::Vector2d reach = (-first).cwiseMax(last);
+    return Eigen::Vector3d(reach.x(), reach.y(), 1).norm();
 }
 
 }  // namespace

@@ -51,6 +51,7 @@ class ViewFuser {
     ViewFuser(const SE3& T_world_cam, const DepthView& view, double voxel_m)
         : view_(view),
           camera_(view.rays.camera()),
+          rectified_(camera_.rectified()),
           distorted_(camera_.hasDistortion()),
           voxel_m_(voxel_m),
           T_cam_world_(T_world_cam.inverse()),
@@ -104,10 +105,10 @@ class ViewFuser {
     std::optional<Eigen::Vector2d> pixelOf(const Eigen::Vector3f& p) const {
         if (p.z() <= 0) return std::nullopt;
         const Eigen::Vector2f ray = p.head<2>() / p.z();
-        Eigen::Vector2d pixel(camera_.fx * ray.x() + camera_.cx, camera_.fy * ray.y() + camera_.cy);
+        Eigen::Vector2d pixel = rectified_.project(Eigen::Vector3d(ray.x(), ray.y(), 1), 1);
         if (!camera_.contains(pixel)) return std::nullopt;
         if (!distorted_) return pixel;
-        pixel = camera_.distort(pixel);
+        pixel = camera_.unrectify(pixel);
         if (!camera_.contains(pixel)) return std::nullopt;
         return pixel;
     }
@@ -130,6 +131,7 @@ class ViewFuser {
 
     const DepthView& view_;
     const Camera& camera_;
+    Camera rectified_;
     bool distorted_;
     double voxel_m_;
     SE3 T_cam_world_;
@@ -138,7 +140,8 @@ class ViewFuser {
 
 /** Pixels to advance so that a block at the end of the range still gets four readings a row. */
 int samplingStep(const Camera& camera, double block_m, double max_range_m) {
-    return std::max(1, static_cast<int>(camera.fx * block_m / (4 * max_range_m)));
+    return std::max(1,
+                    static_cast<int>(camera.pixelsPerRadian().x() * block_m / (4 * max_range_m)));
 }
 
 }  // namespace

@@ -11,7 +11,8 @@ constexpr double depths_m[] = {0.75, 1.5, 2.25, 3};  // where most readings of a
 
 }  // namespace
 
-ViewCoverage::ViewCoverage(const Camera& camera, const Trajectory& keyframes) : camera_(camera) {
+ViewCoverage::ViewCoverage(const Camera& camera, const Trajectory& keyframes)
+    : camera_(camera.pinhole()) {
     for (const StampedPose& keyframe : keyframes) look(keyframe.T_world_cam, all_);
 }
 

@@ -89,13 +89,14 @@ RunOrigin originOf(const Json& summary) {
     RunOrigin origin{json.value("command", ""), json.value("date", ""), {}};
     const Json camera = json.value("camera", Json());
     if (camera.is_null()) return origin;
-    origin.camera = Camera{camera.at("width"),
-                           camera.at("height"),
-                           camera.at("fx"),
-                           camera.at("fy"),
-                           camera.at("cx"),
-                           camera.at("cy"),
-                           camera.at("distortion").get<std::array<double, 5>>()};
+    const std::string lens = camera.value("lens", "plumb_bob");  // earlier runs had no other
+    origin.camera = Intrinsics{camera.at("width"),
+                               camera.at("height"),
+                               camera.at("fx"),
+                               camera.at("fy"),
+                               camera.at("cx"),
+                               camera.at("cy"),
+                               makeLens(lens, camera.at("distortion"))};
     return origin;
 }
 

@@ -46,13 +46,25 @@ std::string code(const std::string& text) {
     return text.empty() ? text : "<code>" + htmlEscaped(text) + "</code>";
 }
 
-std::string intrinsicsText(const Camera& camera) {
+std::string lensText(const Lens& lens) {
+    const std::string model = lensModel(lens);
+    if (model == "none") return "pinhole";
+    if (model == "plumb_bob") return "pinhole with Brown-Conrady distortion";
+    return model == "rational" ? "pinhole with rational distortion" : "Kannala-Brandt fisheye";
+}
+
+std::string intrinsicsText(const Intrinsics& camera) {
     std::string text = formatted("fx %.2f, fy %.2f, cx %.2f, cy %.2f px", camera.fx, camera.fy,
                                  camera.cx, camera.cy);
     if (!camera.hasDistortion()) return text + "; no lens distortion";
-    const auto& d = camera.distortion;
-    return text +
-           formatted("; k1 %.4g, k2 %.4g, p1 %.4g, p2 %.4g, k3 %.4g", d[0], d[1], d[2], d[3], d[4]);
+    const bool is_fisheye = std::holds_alternative<KannalaBrandtLens>(camera.lens);
+    const std::vector<const char*> names =
+        is_fisheye ? std::vector<const char*>{"k1", "k2", "k3", "k4"}
+                   : std::vector<const char*>{"k1", "k2", "p1", "p2", "k3", "k4", "k5", "k6"};
+    const std::vector<double> k = lensCoefficients(camera.lens);
+    for (std::size_t i = 0; i < k.size(); ++i)
+        text += formatted("%s %s %.4g", i == 0 ? ";" : ",", names[i], k[i]);
+    return text;
 }
 
 }  // namespace
@@ -70,9 +82,8 @@ std::string aboutTable(const RunRecord& run) {
                        fact("version", "rgbd-slam " + htmlEscaped(run.version)) +
                        fact("settings", "config.ini, hash " + code(run.config_hash));
     if (const auto& camera = run.origin.camera) {
-        html += fact("camera",
-                     formatted("%d x %d px, pinhole%s", camera->width, camera->height,
-                               camera->hasDistortion() ? " with Brown-Conrady distortion" : ""));
+        html += fact("camera", formatted("%d x %d px, ", camera->width, camera->height) +
+                                   lensText(camera->lens));
         html += fact("intrinsics", intrinsicsText(*camera));
     }
     return "<dl class=\"facts\">\n" + html + "</dl>\n";

@@ -239,10 +239,7 @@ class Level {
         fitting_grays_ += std::abs(residual) < 3;
         const Eigen::Vector2d g = gradient / (of_reference_.deviation * gray_sigma);
         const Eigen::Vector3d& p = pair.point;
-        const Camera& c = surface_.camera;
-        const Eigen::Vector3d by_point(
-            g.x() * c.fx / p.z(), g.y() * c.fy / p.z(),
-            -(g.x() * c.fx * p.x() + g.y() * c.fy * p.y()) / (p.z() * p.z()));
+        const Eigen::Vector3d by_point = surface_.camera.pointGradient(g, p);
         Vector6d jacobian;
         jacobian << by_point, p.cross(by_point);
         add(residual, jacobian);

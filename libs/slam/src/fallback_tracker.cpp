@@ -114,7 +114,7 @@ void FallbackTracker::save(ByteWriter& out) const {
     if (before_) put(*before_, out);
 }
 
-void FallbackTracker::load(ByteReader& in, const Camera& camera, const Camera& view_camera,
+void FallbackTracker::load(ByteReader& in, const RigCameras& cameras, const Camera& view_camera,
                            int levels) {
     odometry_.load(in, view_camera);
     prior_.load(in);
@@ -126,7 +126,7 @@ void FallbackTracker::load(ByteReader& in, const Camera& camera, const Camera& v
     }
     unseen_frames_ = getTally(in);
     before_.reset();
-    if (getFlag(in)) before_ = getFrame(in, camera, levels);
+    if (getFlag(in)) before_ = getFrame(in, cameras, levels);
 }
 
 }  // namespace rgbd_graphslam

@@ -62,7 +62,7 @@ class FallbackTracker {
      *  \param view_camera of the frames' small images
      *  \param levels of the image pyramid
      *  \throws DamagedBytes */
-    void load(ByteReader& in, const Camera& camera, const Camera& view_camera, int levels);
+    void load(ByteReader& in, const RigCameras& cameras, const Camera& view_camera, int levels);
 
   private:
     /** A tracker whose last frame is the one that is followed. */

@@ -10,9 +10,9 @@ constexpr std::size_t most_iterations = 1000;
 
 }  // namespace
 
-GlobalBundleAdjuster::GlobalBundleAdjuster(const SlamOptions& options, const Camera& camera,
+GlobalBundleAdjuster::GlobalBundleAdjuster(const SlamOptions& options, const RigCameras& cameras,
                                            SlamMap& map)
-    : options_(options), camera_(camera), map_(map) {}
+    : options_(options), cameras_(cameras), map_(map) {}
 
 /** Nothing while there is only one keyframe. */
 std::optional<MapAdjustment> GlobalBundleAdjuster::wholeMap() const {
@@ -26,7 +26,7 @@ std::optional<MapAdjustment> GlobalBundleAdjuster::wholeMap() const {
     for (const Covisibility& c : map_.observers(landmarks)) {
         if (map_.isFixed(c.keyframe)) fixed.push_back(c.keyframe);
     }
-    return MapAdjustment(map_, camera_, options_.sensor, std::move(free), fixed,
+    return MapAdjustment(map_, cameras_, options_.sensor, std::move(free), fixed,
                          std::move(landmarks));
 }
 
@@ -70,7 +70,7 @@ void GlobalBundleAdjuster::save(ByteWriter& out) const {
 void GlobalBundleAdjuster::load(ByteReader& in) {
     if (!getFlag(in)) return;
     iterations_ = getIndex(in, most_iterations + 1, "number of iterations");
-    begun_.emplace(in, map_, camera_);
+    begun_.emplace(in, map_, cameras_);
     solveInBackground(*begun_);
 }
 

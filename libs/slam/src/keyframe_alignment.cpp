@@ -40,7 +40,7 @@ struct Correspondences {
 /** Only keypoints that can take part are compared: with depth on one side, with a landmark on the
  *  other. */
 Correspondences correspond(const Frame& frame, const Keyframe& keyframe, const SlamMap& map,
-                           const Camera& camera, const SlamOptions& options) {
+                           const RigCameras& cameras, const SlamOptions& options) {
     const Selection seen =
         select(frame, [&](std::size_t i) { return frame.keypoints[i].depth_m > 0; });
     const Selection known =
@@ -53,8 +53,9 @@ Correspondences correspond(const Frame& frame, const Keyframe& keyframe, const S
         found.keypoints.push_back(seen.keypoints[a]);
         found.landmarks.push_back(landmark);
         found.matches.push_back({map.landmark(landmark).position,
-                                 measurementOf(k, map.scaleOf(k.octave), options.sensor)});
-        found.points_cam.push_back(camera.unproject(k.u, k.v, k.depth_m));
+                                 measurementOf(k, map.scaleOf(k.octave), options.sensor), 1,
+                                 k.camera});
+        found.points_cam.push_back(cameras.pointOf(k));
     }
     return found;
 }
@@ -62,16 +63,17 @@ Correspondences correspond(const Frame& frame, const Keyframe& keyframe, const S
 }  // namespace
 
 std::optional<LocatedFrame> alignWithKeyframe(const Frame& frame, const Keyframe& keyframe,
-                                              const SlamMap& map, const Camera& camera,
+                                              const SlamMap& map, const RigCameras& cameras,
                                               const SlamOptions& options) {
-    const Correspondences found = correspond(frame, keyframe, map, camera, options);
+    const Correspondences found = correspond(frame, keyframe, map, cameras, options);
     if (static_cast<int>(found.matches.size()) < fewest_aligned) return std::nullopt;
     const auto aligned =
-        alignRobustly(camera, found.matches, found.points_cam, options.loops.ransac_iterations,
+        alignRobustly(cameras, found.matches, found.points_cam, options.loops.ransac_iterations,
                       static_cast<std::uint64_t>(keyframe.id));
     if (!aligned || aligned->inliers < fewest_aligned) return std::nullopt;
     LocatedFrame located;
-    located.T_cam_world = solvePose(camera, found.matches, aligned->T_cam_world).T_body_world;
+    located.T_cam_world =
+        solvePose(cameras.mounted(), found.matches, aligned->T_cam_world).T_body_world;
     located.landmarks.assign(frame.keypoints.size(), no_landmark);
     for (std::size_t m = 0; m < found.matches.size(); ++m) {
         if (aligned->inlier[m]) located.landmarks[found.keypoints[m]] = found.landmarks[m];

@@ -11,7 +11,7 @@ namespace rgbd_graphslam {
  * refines the pose. Needs no idea of where the frame is. \return the landmarks that agree; nothing
  * when too few do */
 std::optional<LocatedFrame> alignWithKeyframe(const Frame& frame, const Keyframe& keyframe,
-                                              const SlamMap& map, const Camera& camera,
+                                              const SlamMap& map, const RigCameras& cameras,
                                               const SlamOptions& options);
 
 }  // namespace rgbd_graphslam

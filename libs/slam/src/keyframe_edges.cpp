@@ -30,7 +30,7 @@ Matrix6d KeyframeEdges::informationOf(int keyframe, const std::vector<int>& land
         return informationFrom(dead_reckoned_sigma);
     }
     // Both keyframes measure the landmarks, so the relative pose has twice the variance of one.
-    return 0.5 * solvePose(camera_, matches, k.T_cam_world).information;
+    return 0.5 * solvePose(cameras_.mounted(), matches, k.T_cam_world).information;
 }
 
 /** Landmarks of a keyframe, one per keypoint, without those that the other does not see. */

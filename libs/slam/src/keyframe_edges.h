@@ -14,8 +14,8 @@ namespace rgbd_graphslam {
 class KeyframeEdges {
   public:
     /** All arguments must outlive the edges. */
-    KeyframeEdges(const SensorOptions& sensor, const Camera& camera, const SlamMap& map)
-        : sensor_(sensor), camera_(camera), map_(map) {}
+    KeyframeEdges(const SensorOptions& sensor, const RigCameras& cameras, const SlamMap& map)
+        : sensor_(sensor), cameras_(cameras), map_(map) {}
 
     /** From the keyframe before `keyframe` (> 0) to it; next to no information where the camera
      *  lost its way between them. */
@@ -37,7 +37,7 @@ class KeyframeEdges {
     Matrix6d informationOf(int keyframe, const std::vector<int>& landmarks) const;
 
     const SensorOptions& sensor_;
-    const Camera& camera_;
+    const RigCameras& cameras_;
     const SlamMap& map_;
 };
 

@@ -2,7 +2,6 @@
 #pragma once
 #include <vector>
 
-#include "rgbd_graphslam/geometry/camera.h"
 #include "rgbd_graphslam/slam/slam_map.h"
 
 namespace rgbd_graphslam {
@@ -10,8 +9,8 @@ namespace rgbd_graphslam {
 /** Moves keypoints to where the patches of the landmarks that they show lie, and marks those as
  *  aligned. Without patches nothing moves.
  *  \param landmarks one per keypoint, or no_landmark
- *  \param T_cam_world within a few pixels */
+ *  \param T_cam_world of the first camera, within a few pixels */
 void alignKeypoints(Frame& frame, const std::vector<int>& landmarks, const SE3& T_cam_world,
-                    const Camera& camera, const SlamMap& map);
+                    const RigCameras& cameras, const SlamMap& map);
 
 }  // namespace rgbd_graphslam

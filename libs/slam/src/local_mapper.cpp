@@ -22,8 +22,8 @@ constexpr int observers_that_make_redundant = 3;
 
 }  // namespace
 
-LocalMapper::LocalMapper(const SlamOptions& options, const Camera& camera, SlamMap& map)
-    : options_(options), camera_(camera), map_(map) {}
+LocalMapper::LocalMapper(const SlamOptions& options, const RigCameras& cameras, SlamMap& map)
+    : options_(options), cameras_(cameras), map_(map) {}
 
 void LocalMapper::insert(int keyframe) {
     createFromDepth(keyframe);
@@ -69,7 +69,7 @@ void LocalMapper::createFromDepth(int id) {
     for (std::size_t i = 0; i < keypoints; ++i) {
         const Keypoint& k = map_.keyframe(id).frame.keypoints[i];
         if (map_.keyframe(id).landmarks[i] != no_landmark || k.depth_m <= 0) continue;
-        const Eigen::Vector3d position = T_world_cam * camera_.unproject(k.u, k.v, k.depth_m);
+        const Eigen::Vector3d position = T_world_cam * cameras_.pointOf(k);
         recent_.push_back(map_.addLandmark(position, id, static_cast<int>(i)));
     }
 }
@@ -79,7 +79,7 @@ void LocalMapper::triangulateWithNeighbors(int id) {
     if (neighbors.size() > neighbors_triangulated) neighbors.resize(neighbors_triangulated);
     for (const Covisibility& c : neighbors) {
         for (const TriangulatedPoint& point :
-             triangulateBetween(camera_, map_, options_, id, c.keyframe)) {
+             triangulateBetween(cameras_, map_, options_, id, c.keyframe)) {
             recent_.push_back(map_.addLandmark(point.position, id, point.keypoint_a));
             map_.addObservation(recent_.back(), c.keyframe, point.keypoint_b);
         }
@@ -96,13 +96,13 @@ void LocalMapper::joinWithNeighbors(int id) {
 // NOLINTNEXTLINE(performance-unnecessary-value-param)
 void LocalMapper::joinInto(int keyframe_id, std::vector<int> landmarks) {
     const Keyframe& keyframe = map_.keyframe(keyframe_id);
-    ProjectedSearch search(keyframe.frame, keyframe.T_cam_world, camera_, map_);
+    ProjectedSearch search(keyframe.frame, keyframe.T_cam_world, cameras_, map_);
     for (const int id : landmarks) {
         if (id == no_landmark || !map_.landmark(id).alive) continue;
         if (map_.keypointOf(id, keyframe_id) >= 0) continue;
-        const auto projected = search.project(id);
-        if (!projected) continue;
-        search.search(*projected, search.octave(*projected), {join_window_px, 0, join_hamming, 1});
+        search.visitViews(id, [&](const ProjectedLandmark& view) {
+            return search.search(view, search.octave(view), {join_window_px, 0, join_hamming, 1});
+        });
     }
     for (const auto& [keypoint, landmark] : search.matches()) join(landmark, keyframe_id, keypoint);
 }
@@ -112,8 +112,8 @@ void LocalMapper::join(int landmark, int keyframe, int keypoint) {
     const Keyframe& seen_by = map_.keyframe(keyframe);
     const Keypoint& k = seen_by.frame.keypoints[keypoint];
     const Measurement m = measurementOf(k, map_.scaleOf(k.octave), options_.sensor);
-    const Eigen::Vector3d p = seen_by.T_cam_world * map_.landmark(landmark).position;
-    if (residual(camera_, p, m).squaredNorm() > chi2Limit(m)) return;
+    const PointView view(cameras_[k.camera], seen_by.T_cam_world, map_.landmark(landmark).position);
+    if (view.residual(m).squaredNorm() > chi2Limit(m)) return;
     const int other = seen_by.landmarks[keypoint];
     if (!map_.landmark(landmark).alive) return;
     if (other == no_landmark) {
@@ -212,7 +212,7 @@ MapAdjustment LocalMapper::adjustmentAround(int id) const {
         if (static_cast<int>(fixed.size()) >= options_.mapper.max_fixed_keyframes) break;
         fixed.push_back(c.keyframe);
     }
-    return {map_, camera_, options_.sensor, free, fixed, std::move(landmarks)};
+    return {map_, cameras_, options_.sensor, free, fixed, std::move(landmarks)};
 }
 
 }  // namespace rgbd_graphslam

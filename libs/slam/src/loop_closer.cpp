@@ -13,13 +13,13 @@ constexpr int fewest_votes = 15;
 constexpr int fused_neighbors = 10;
 }  // namespace
 
-LoopCloser::LoopCloser(const SlamOptions& options, const Camera& camera, SlamMap& map)
+LoopCloser::LoopCloser(const SlamOptions& options, const RigCameras& cameras, SlamMap& map)
     : options_(options),
-      camera_(camera),
+      cameras_(cameras),
       map_(map),
       plausibility_(options.loops, map, loops_),
       index_(options.loops.bits_hamming),
-      verifier_(options, camera, map) {}
+      verifier_(options, cameras, map) {}
 
 std::vector<Descriptor> LoopCloser::placeDescriptors(int keyframe) const {
     const Keyframe& k = map_.keyframe(keyframe);
@@ -108,7 +108,7 @@ std::vector<PoseEdge> LoopCloser::findLoops(int keyframe) {
 std::optional<VerifiedLoop> LoopCloser::verify(int keyframe, int candidate) {
     Frame frame = map_.keyframe(keyframe).frame;  // its keypoints move to the candidate's
     const auto aligned =
-        alignWithKeyframe(frame, map_.keyframe(candidate), map_, camera_, options_);
+        alignWithKeyframe(frame, map_.keyframe(candidate), map_, cameras_, options_);
     if (!aligned) return std::nullopt;
     const auto located = verifier_.trackLocalMap(frame, aligned->T_cam_world, aligned->landmarks,
                                                  KernelShape::GemanMcClure);
@@ -118,7 +118,8 @@ std::optional<VerifiedLoop> LoopCloser::verify(int keyframe, int candidate) {
     loop.edge.from = candidate;
     loop.edge.to = keyframe;
     loop.edge.T_from_to = map_.T_cam_world(candidate) * located->T_cam_world.inverse();
-    loop.edge.information = solvePose(camera_, matches, located->T_cam_world).information;
+    loop.edge.information =
+        solvePose(cameras_.mounted(), matches, located->T_cam_world).information;
     loop.edge.kind = EdgeKind::Loop;
     loop.edge.inliers = located->inliers;
     loop.asked = plausibility_.asked(loop.edge);

@@ -12,6 +12,7 @@ namespace {
 void put(const BundleObservation& o, ByteWriter& out) {
     out.putCount(o.keyframe);
     out.putCount(o.point);
+    out.putCount(o.camera);
     const Measurement& m = o.measurement;
     for (const double x : {m.u, m.v, m.inverse_depth, m.weight_px, m.weight_depth}) out.put(x);
 }
@@ -20,6 +21,7 @@ BundleObservation getObservation(ByteReader& in, const BundleProblem& problem) {
     BundleObservation o;
     o.keyframe = getIndex(in, problem.states.keyframes.size(), "keyframe");
     o.point = getIndex(in, problem.states.points.size(), "point");
+    o.camera = getIndex(in, problem.cameras.size(), "camera");
     Measurement& m = o.measurement;
     for (double* x : {&m.u, &m.v, &m.inverse_depth, &m.weight_px, &m.weight_depth}) {
         *x = getFinite(in);
@@ -29,13 +31,13 @@ BundleObservation getObservation(ByteReader& in, const BundleProblem& problem) {
 
 }  // namespace
 
-MapAdjustment::MapAdjustment(const SlamMap& map, const Camera& camera, const SensorOptions& sensor,
-                             std::vector<int> free, const std::vector<int>& fixed,
-                             std::vector<int> landmarks)
+MapAdjustment::MapAdjustment(const SlamMap& map, const RigCameras& cameras,
+                             const SensorOptions& sensor, std::vector<int> free,
+                             const std::vector<int>& fixed, std::vector<int> landmarks)
     : keyframes_(std::move(free)),
       landmarks_(std::move(landmarks)),
       keyframes_in_map_(static_cast<int>(map.keyframes().size())) {
-    problem.cameras = {MountedCamera(camera)};
+    problem.cameras = cameras.mounted();
     problem.free_keyframes = static_cast<int>(keyframes_.size());
     keyframes_.insert(keyframes_.end(), fixed.begin(), fixed.end());
     std::vector<int> camera_of(map.keyframes().size(), -1);
@@ -50,7 +52,8 @@ MapAdjustment::MapAdjustment(const SlamMap& map, const Camera& camera, const Sen
             if (camera_of[o.keyframe] < 0) continue;
             const Keypoint& k = map.keyframe(o.keyframe).frame.keypoints[o.keypoint];
             problem.observations.push_back({camera_of[o.keyframe], static_cast<int>(p),
-                                            measurementOf(k, map.scaleOf(k.octave), sensor)});
+                                            measurementOf(k, map.scaleOf(k.octave), sensor),
+                                            k.camera});
             observation_keyframe_.push_back(o.keyframe);
         }
     }
@@ -122,12 +125,12 @@ void MapAdjustment::save(ByteWriter& out) const {
     for (const BundleObservation& o : problem.observations) put(o, out);
 }
 
-MapAdjustment::MapAdjustment(ByteReader& in, const SlamMap& map, const Camera& camera)
+MapAdjustment::MapAdjustment(ByteReader& in, const SlamMap& map, const RigCameras& cameras)
     : keyframes_(getNumbers(in, map.keyframes().size())),
       landmarks_(getNumbers(in, map.landmarks().size())),
       observation_keyframe_(getNumbers(in, map.keyframes().size())) {
     keyframes_in_map_ = getIndex(in, map.keyframes().size() + 1, "number of keyframes");
-    problem.cameras = {MountedCamera(camera)};
+    problem.cameras = cameras.mounted();
     problem.free_keyframes = getIndex(in, keyframes_.size() + 1, "number of free keyframes");
     if (problem.free_keyframes == 0) throw DamagedBytes("an adjustment of nothing");
     for (std::size_t c = 0; c < keyframes_.size(); ++c) {

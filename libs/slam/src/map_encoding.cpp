@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <cstring>
+#include <stdexcept>
 #include <string>
 
 namespace rgbd_graphslam {
@@ -37,6 +38,12 @@ int getOctave(ByteReader& in, int levels) {
     const auto octave = in.get<std::uint8_t>();
     if (octave >= levels) throw DamagedBytes("a pyramid level that does not exist");
     return octave;
+}
+
+int getCameraNumber(ByteReader& in, int cameras) {
+    const auto camera = in.get<std::uint8_t>();
+    if (camera >= cameras) throw DamagedBytes("a camera that the rig does not have");
+    return camera;
 }
 
 }  // namespace
@@ -137,38 +144,81 @@ Descriptor getDescriptor(ByteReader& in) {
 void put(const LandmarkPatch& seen, ByteWriter& out) {
     const Patch& patch = seen.patch;
     out.put(static_cast<std::uint8_t>(seen.octave));
+    out.put(static_cast<std::uint8_t>(seen.camera));
     for (const float f : {patch.corner.x, patch.corner.y}) out.put(f);
     out.putBytes({reinterpret_cast<const char*>(patch.gray.data()), patch.gray.size()});
 }
 
-LandmarkPatch getPatch(ByteReader& in, int levels) {
+LandmarkPatch getPatch(ByteReader& in, int levels, int cameras) {
     LandmarkPatch seen;
     Patch& patch = seen.patch;
     seen.octave = getOctave(in, levels);
+    seen.camera = getCameraNumber(in, cameras);
     for (float* f : {&patch.corner.x, &patch.corner.y}) *f = getFloat(in, Patch::center);
     std::memcpy(patch.gray.data(), in.getBytes(patch.gray.size()).data(), patch.gray.size());
     return seen;
 }
 
 void put(const Camera& camera, ByteWriter& out) {
-    out.put<std::int32_t>(camera.width);
-    out.put<std::int32_t>(camera.height);
-    for (const double d : {camera.fx, camera.fy, camera.cx, camera.cy}) out.put(d);
-    for (const double d : camera.distortion) out.put(d);
+    const Intrinsics in = camera.intrinsics();
+    out.put<std::int32_t>(in.width);
+    out.put<std::int32_t>(in.height);
+    for (const double d : {in.fx, in.fy, in.cx, in.cy}) out.put(d);
+    const std::vector<double> coefficients = lensCoefficients(in.lens);
+    out.putText(lensModel(in.lens));
+    out.putCount(coefficients.size());
+    for (const double k : coefficients) out.put(k);
+}
+
+Lens getLens(ByteReader& in) {
+    const std::string model = in.getText();
+    std::vector<double> coefficients(in.getCount(sizeof(double)));
+    for (double& k : coefficients) k = getFinite(in);
+    try {
+        return makeLens(model, coefficients);
+    } catch (const std::invalid_argument&) {
+        throw DamagedBytes("a lens of no known model");
+    }
 }
 
 Camera getCamera(ByteReader& in) {
-    Camera camera;
+    Intrinsics camera;
     for (int* side : {&camera.width, &camera.height}) {
         *side = in.get<std::int32_t>();
         if (*side < 1 || *side > largest_image_px)
             throw DamagedBytes("an image of impossible size");
     }
     for (double* d : {&camera.fx, &camera.fy, &camera.cx, &camera.cy}) *d = getFinite(in);
-    for (double& d : camera.distortion) d = getFinite(in);
     if (camera.fx <= 0 || camera.fy <= 0) throw DamagedBytes("a focal length that is not positive");
-    if (!camera.undoesDistortion()) throw DamagedBytes("a lens distortion that cannot be undone");
-    return camera;
+    camera.lens = getLens(in);
+    const Camera model = camera;
+    if (!model.isInvertible()) throw DamagedBytes("a lens distortion that cannot be undone");
+    return model;
+}
+
+void put(const Rig& rig, ByteWriter& out) {
+    out.putCount(rig.cameras.size());
+    for (const RigCamera& camera : rig.cameras) {
+        out.putText(camera.label);
+        put(camera.model, out);
+        encodePose(camera.T_body_cam, out);
+    }
+}
+
+Rig getRig(ByteReader& in) {
+    constexpr std::size_t most_cameras = 255;
+    Rig rig;
+    const std::size_t cameras = in.getCount(camera_bytes);
+    if (cameras == 0 || cameras > most_cameras)
+        throw DamagedBytes("a rig of no or too many cameras");
+    for (std::size_t i = 0; i < cameras; ++i) {
+        RigCamera camera;
+        camera.label = in.getText();
+        camera.model = getCamera(in);
+        camera.T_body_cam = decodePose(in);
+        rig.cameras.push_back(camera);
+    }
+    return rig;
 }
 
 void put(const Frame& frame, ByteWriter& out) {
@@ -179,11 +229,12 @@ void put(const Frame& frame, ByteWriter& out) {
         for (const float f : {k.u, k.v, k.depth_m, k.angle_rad}) out.put(f);
         out.put(static_cast<std::uint8_t>(k.octave));
         putFlag(k.aligned, out);
+        out.put(static_cast<std::uint8_t>(k.camera));
         put(frame.descriptors[i], out);
     }
 }
 
-Frame getFrame(ByteReader& in, const Camera& camera, int levels) {
+Frame getFrame(ByteReader& in, const RigCameras& cameras, int levels) {
     constexpr float farthest_m = 1e4f, two_turns_rad = 13;
     Frame frame;
     frame.stamp_s = getFinite(in);
@@ -197,9 +248,10 @@ Frame getFrame(ByteReader& in, const Camera& camera, int levels) {
         k.angle_rad = getFloat(in, two_turns_rad);
         k.octave = getOctave(in, levels);
         k.aligned = getFlag(in);
+        k.camera = getCameraNumber(in, cameras.count());
         frame.descriptors[i] = getDescriptor(in);
     }
-    frame.grid = KeypointGrid(frame.keypoints, camera.width, camera.height);
+    frame.grid = cameras.gridOf(frame.keypoints);
     return frame;
 }
 
@@ -224,11 +276,11 @@ void put(const Keyframe& keyframe, ByteWriter& out) {
     encodePose(keyframe.T_cam_parent, out);
 }
 
-Keyframe getKeyframe(ByteReader& in, int id, std::size_t keyframes, const Camera& camera,
+Keyframe getKeyframe(ByteReader& in, int id, std::size_t keyframes, const RigCameras& cameras,
                      int levels) {
     Keyframe keyframe;
     keyframe.id = id;
-    keyframe.frame = getFrame(in, camera, levels);
+    keyframe.frame = getFrame(in, cameras, levels);
     keyframe.landmarks.assign(keyframe.frame.keypoints.size(), no_landmark);
     keyframe.T_cam_world = decodePose(in);
     keyframe.submap = getIndex(in, keyframes, "submap");
@@ -266,14 +318,16 @@ void put(const Landmark& landmark, ByteWriter& out) {
     }
 }
 
-Landmark getLandmark(ByteReader& in, int id, std::vector<Keyframe>& keyframes, int levels) {
+Landmark getLandmark(ByteReader& in, int id, std::vector<Keyframe>& keyframes, int levels,
+                     int cameras) {
     Landmark landmark;
     landmark.position = getVector(in);
     landmark.view_direction = getVector(in);
     landmark.level0_distance = getFinite(in);
     if (landmark.level0_distance <= 0) throw DamagedBytes("a distance that is not positive");
     landmark.descriptor = getDescriptor(in);
-    if (getFlag(in)) landmark.patch = std::make_shared<LandmarkPatch>(getPatch(in, levels));
+    if (getFlag(in))
+        landmark.patch = std::make_shared<LandmarkPatch>(getPatch(in, levels, cameras));
     landmark.first_keyframe = getIndex(in, keyframes.size(), "keyframe");
     landmark.times_expected = getTally(in);
     landmark.times_found = getTally(in);

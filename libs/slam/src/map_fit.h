@@ -6,13 +6,13 @@
 namespace rgbd_graphslam {
 
 /** \param features settings of the run
- *  \param camera of the run
- *  \throws Error when the map is of another image pyramid, or is to be extended by another camera
- */
-void requireFits(const MapSnapshot& map, const FeatureOptions& features, const Camera& camera,
+ *  \param rig of the run
+ *  \throws Error when the map is of another image pyramid or another number of cameras, or is to be
+ *          extended by other cameras */
+void requireFits(const MapSnapshot& map, const FeatureOptions& features, const Rig& rig,
                  MapUse use);
 
-/** Moves the keypoints to where a camera would have seen them from the same places. */
-void seeWith(const Camera& camera, MapSnapshot& map);
+/** Moves the keypoints to where these cameras would have seen them from the same places. */
+void seeWith(const Rig& rig, MapSnapshot& map);
 
 }  // namespace rgbd_graphslam

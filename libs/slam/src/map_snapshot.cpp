@@ -3,10 +3,10 @@
 #include "rgbd_graphslam/slam/map_encoding.h"
 
 namespace rgbd_graphslam {
-MapSnapshot takeSnapshot(const SlamMap& map, const Camera& camera, double scale_factor,
+MapSnapshot takeSnapshot(const SlamMap& map, const Rig& rig, double scale_factor,
                          std::vector<PoseEdge> loops) {
     MapSnapshot snapshot;
-    snapshot.camera = camera;
+    snapshot.rig = rig;
     snapshot.scale_factor = scale_factor;
     snapshot.levels = map.levels();
     snapshot.keyframes = map.keyframes();
@@ -26,7 +26,7 @@ MapSnapshot takeSnapshot(const SlamMap& map, const Camera& camera, double scale_
 }
 
 void encode(const MapSnapshot& snapshot, ByteWriter& out) {
-    put(snapshot.camera, out);
+    put(snapshot.rig, out);
     out.put(snapshot.scale_factor);
     out.putCount(snapshot.levels);
     out.putCount(snapshot.keyframes.size());
@@ -39,23 +39,24 @@ void encode(const MapSnapshot& snapshot, ByteWriter& out) {
 
 MapSnapshot decodeSnapshot(ByteReader& in) {
     MapSnapshot snapshot;
-    snapshot.camera = getCamera(in);
+    snapshot.rig = getRig(in);
     snapshot.scale_factor = getFinite(in);
     snapshot.levels = in.get<std::int32_t>();
     if (snapshot.scale_factor <= 1 || snapshot.levels < 1 || snapshot.levels > most_levels) {
         throw DamagedBytes("an image pyramid that cannot be");
     }
+    const RigCameras cameras(snapshot.rig);
     const std::size_t keyframes = in.getCount(keyframe_bytes);
     if (keyframes == 0) throw DamagedBytes("a map without keyframes");
     for (std::size_t id = 0; id < keyframes; ++id) {
         snapshot.keyframes.push_back(
-            getKeyframe(in, static_cast<int>(id), keyframes, snapshot.camera, snapshot.levels));
+            getKeyframe(in, static_cast<int>(id), keyframes, cameras, snapshot.levels));
     }
     checkCulled(snapshot.keyframes);
     const std::size_t landmarks = in.getCount(landmark_bytes);
     for (std::size_t id = 0; id < landmarks; ++id) {
-        snapshot.landmarks.push_back(
-            getLandmark(in, static_cast<int>(id), snapshot.keyframes, snapshot.levels));
+        snapshot.landmarks.push_back(getLandmark(in, static_cast<int>(id), snapshot.keyframes,
+                                                 snapshot.levels, cameras.count()));
     }
     const std::size_t loops = in.getCount(edge_bytes);
     for (std::size_t i = 0; i < loops; ++i) {

@@ -17,7 +17,7 @@ RGBD_WITH_POPCOUNT
 Best nearestInWindow(const Frame& frame, const std::vector<int>& claimed,
                      const Descriptor& descriptor, const SearchWindow& window) {
     Best best;
-    frame.grid.visit(window.u, window.v, window.radius, [&](int i) {
+    const auto compare = [&](int i) {
         const Keypoint& k = frame.keypoints[i];
         const float du = k.u - window.u, dv = k.v - window.v;
         if (k.octave < window.octave_min || k.octave > window.octave_max || claimed[i] < 0 ||
@@ -30,7 +30,8 @@ Best nearestInWindow(const Frame& frame, const std::vector<int>& claimed,
         } else if (distance < best.second) {
             best.second = distance;
         }
-    });
+    };
+    frame.grid.visit(window.u, window.v, window.radius, compare, window.camera);
     return best;
 }
 
@@ -61,14 +62,15 @@ MatchTable::MatchTable(const Frame& frame)
       point_(frame.keypoints.size(), -1),
       distance_(frame.keypoints.size(), no_distance) {}
 
-void MatchTable::search(int point, const Descriptor& descriptor, const SearchWindow& window,
+bool MatchTable::search(int point, const Descriptor& descriptor, const SearchWindow& window,
                         int max_hamming, float ratio) {
     const Best best = nearestInWindow(frame_, distance_, descriptor, window);
-    if (best.keypoint < 0 || best.distance > max_hamming) return;
-    if (best.distance > ratio * best.second) return;
-    if (best.distance >= distance_[best.keypoint]) return;
+    if (best.keypoint < 0 || best.distance > max_hamming) return false;
+    if (best.distance > ratio * best.second) return false;
+    if (best.distance >= distance_[best.keypoint]) return false;
     point_[best.keypoint] = point;
     distance_[best.keypoint] = best.distance;
+    return true;
 }
 
 std::vector<std::pair<int, int>> MatchTable::matches() const {

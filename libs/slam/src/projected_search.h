@@ -1,11 +1,10 @@
-/** Search for landmarks around the places where a camera should see them. */
+/** Search for landmarks around the places where the cameras should see them. */
 #pragma once
-#include <optional>
 #include <utility>
 #include <vector>
 
-#include "rgbd_graphslam/geometry/camera.h"
 #include "rgbd_graphslam/slam/matcher.h"
+#include "rgbd_graphslam/slam/rig_cameras.h"
 #include "rgbd_graphslam/slam/slam_map.h"
 
 namespace rgbd_graphslam {
@@ -13,9 +12,10 @@ namespace rgbd_graphslam {
 /** A landmark as a camera would see it. */
 struct ProjectedLandmark {
     int id = no_landmark;
+    int camera = 0;
     double depth_m = 0;
     Eigen::Vector2d pixel;
-    Eigen::Vector3d to_camera;  // from the landmark, world, m
+    Eigen::Vector3d to_camera;  // from the landmark to the body, world, m
     double distance_m = 0;
 };
 
@@ -30,29 +30,40 @@ struct SearchLimits {
 class ProjectedSearch {
   public:
     /** All arguments must outlive the search. */
-    ProjectedSearch(const Frame& frame, const SE3& T_cam_world, const Camera& camera,
+    ProjectedSearch(const Frame& frame, const SE3& T_cam_world, const RigCameras& cameras,
                     const SlamMap& map);
 
     /** Takes a keypoint out of the search. */
     void reserve(int keypoint) { table_.reserve(keypoint); }
 
-    /** Nothing where the landmark is behind the camera or beside its image. */
-    std::optional<ProjectedLandmark> project(int landmark) const;
+    /** Calls visit(ProjectedLandmark) for the cameras that have the landmark in their image until
+     * one returns true. */
+    template <class Visit>
+    void visitViews(int landmark, Visit&& visit) const {
+        const Eigen::Vector3d& position = map_.landmark(landmark).position;
+        const Eigen::Vector3d to_camera = camera_position_ - position;
+        cameras_.visitViews(T_cam_world_ * position,
+                            [&](int camera, const Eigen::Vector2d& pixel, double depth_m) {
+                                return visit(ProjectedLandmark{landmark, camera, depth_m, pixel,
+                                                               to_camera, to_camera.norm()});
+                            });
+    }
 
     /** Pyramid level on which a landmark is expected, not clamped. */
     int octave(const ProjectedLandmark& landmark) const;
     /** Whether that level, or the next one to it, is in the pyramid. */
     bool isInPyramid(int octave) const { return octave >= -1 && octave <= map_.levels(); }
 
-    /** Looks for a landmark on its level and the neighboring ones. */
-    void search(const ProjectedLandmark& landmark, int octave, const SearchLimits& limits);
+    /** Looks for a landmark on its level and the neighboring ones.
+     *  \return whether it has a keypoint now */
+    bool search(const ProjectedLandmark& landmark, int octave, const SearchLimits& limits);
 
     /** Found so far: (keypoint, landmark) by rising keypoint. */
     std::vector<std::pair<int, int>> matches() const { return table_.matches(); }
 
   private:
     const SE3& T_cam_world_;
-    const Camera& camera_;
+    const RigCameras& cameras_;
     const SlamMap& map_;
     const Eigen::Vector3d camera_position_;
     MatchTable table_;

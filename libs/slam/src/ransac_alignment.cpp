@@ -30,15 +30,16 @@ int iterationsNeeded(double inlier_share, int most) {
         most, static_cast<int>(std::log(1 - confidence) / std::log(1 - good_sample)) + 1);
 }
 
-RansacAlignment judge(const Camera& camera, const std::vector<PointMatch>& matches, const SE3& T) {
+RansacAlignment judge(const RigCameras& cameras, const std::vector<PointMatch>& matches,
+                      const SE3& T) {
     RansacAlignment result;
     result.T_cam_world = T;
     result.inlier.assign(matches.size(), false);
     for (std::size_t i = 0; i < matches.size(); ++i) {
-        const Eigen::Vector3d p = T * matches[i].position;
+        const PointView view(cameras[matches[i].camera], T, matches[i].position);
         const Measurement& m = matches[i].measurement;
-        if (p.z() < nearest_depth_m) continue;
-        result.inlier[i] = residual(camera, p, m).squaredNorm() < widening * chi2Limit(m);
+        if (view.tooNear()) continue;
+        result.inlier[i] = view.residual(m).squaredNorm() < widening * chi2Limit(m);
         result.inliers += result.inlier[i];
     }
     return result;
@@ -46,7 +47,7 @@ RansacAlignment judge(const Camera& camera, const std::vector<PointMatch>& match
 
 }  // namespace
 
-std::optional<RansacAlignment> alignRobustly(const Camera& camera,
+std::optional<RansacAlignment> alignRobustly(const RigCameras& cameras,
                                              const std::vector<PointMatch>& matches,
                                              const std::vector<Eigen::Vector3d>& points_cam,
                                              int max_iterations, std::uint64_t seed) {
@@ -60,7 +61,8 @@ std::optional<RansacAlignment> alignRobustly(const Camera& camera,
                                static_cast<int>(random() % count),
                                static_cast<int>(random() % count)};
         if (sample[0] == sample[1] || sample[0] == sample[2] || sample[1] == sample[2]) continue;
-        RansacAlignment candidate = judge(camera, matches, alignThree(matches, points_cam, sample));
+        RansacAlignment candidate =
+            judge(cameras, matches, alignThree(matches, points_cam, sample));
         if (candidate.inliers < 3 || (best && candidate.inliers <= best->inliers)) continue;
         best = std::move(candidate);
         needed = iterationsNeeded(static_cast<double>(best->inliers) / count, max_iterations);

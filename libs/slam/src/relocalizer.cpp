@@ -94,7 +94,8 @@ std::optional<Relocalizer::Candidate> Relocalizer::lookAround(const Frame& frame
 /** As much proof as a loop needs: a wrong place is worse than none. */
 std::optional<Relocalizer::Candidate> Relocalizer::lookAt(
     const Frame& frame, int keyframe, const std::optional<Prediction>& predicted) {
-    const auto aligned = alignWithKeyframe(frame, map_.keyframe(keyframe), map_, camera_, options_);
+    const auto aligned =
+        alignWithKeyframe(frame, map_.keyframe(keyframe), map_, cameras_, options_);
     if (!aligned) return std::nullopt;
     Frame copy = frame;
     auto located = tracker_.trackLocalMap(copy, aligned->T_cam_world, aligned->landmarks);

@@ -23,9 +23,9 @@ struct Prediction {
 class Relocalizer {
   public:
     /** All arguments must outlive it. \param tracker whose search of the local map is used */
-    Relocalizer(const SlamOptions& options, const Camera& camera, const SlamMap& map,
+    Relocalizer(const SlamOptions& options, const RigCameras& cameras, const SlamMap& map,
                 const LoopCloser& places, Tracker& tracker)
-        : options_(options), camera_(camera), map_(map), places_(places), tracker_(tracker) {}
+        : options_(options), cameras_(cameras), map_(map), places_(places), tracker_(tracker) {}
 
     /** \param frame keypoints move to the landmarks that they show, if it is located
      *  \param predicted nothing where the camera may be anywhere
@@ -66,7 +66,7 @@ class Relocalizer {
     bool believes(const Candidate& candidate, bool after_a_loss);
 
     const SlamOptions& options_;
-    const Camera& camera_;
+    const RigCameras& cameras_;
     const SlamMap& map_;
     const LoopCloser& places_;
     Tracker& tracker_;

@@ -175,21 +175,23 @@ std::optional<RowObservation> rowObservation(const MapSnapshot& map, const Keyfr
                                              int keypoint, const StampedPose& before,
                                              const StampedPose& after) {
     const int landmark = keyframe.landmarks[static_cast<std::size_t>(keypoint)];
-    if (landmark == no_landmark) return std::nullopt;
+    const bool by_first = keyframe.frame.keypoints[static_cast<std::size_t>(keypoint)].camera == 0;
+    if (landmark == no_landmark || !by_first) return std::nullopt;
     const Eigen::Vector3d& point = map.landmarks[static_cast<std::size_t>(landmark)].position;
     const Eigen::Vector3d p = keyframe.T_cam_world * point;
-    const auto velocity = velocityOf(point, before, after, map.camera);
+    const Camera camera = map.rig.cameras.front().model.rectified();
+    const auto velocity = velocityOf(point, before, after, camera);
     if (!velocity || p.z() < nearest_depth_m) return std::nullopt;
     const Keypoint& seen = keyframe.frame.keypoints[static_cast<std::size_t>(keypoint)];
     const Measurement plain{seen.u, seen.v, 0, 1, 0};
     RowObservation o;
     o.keyframe = keyframe.id;
     o.landmark = landmark;
-    o.row = (seen.v + 0.5) / map.camera.height - 0.5;
-    o.residual_px = -residual(map.camera, p, plain).head<2>();
+    o.row = (seen.v + 0.5) / camera.height - 0.5;
+    o.residual_px = -residual(camera, p, plain).head<2>();
     o.sigma_px = std::pow(map.scale_factor, seen.octave);
     o.velocity_px_s = *velocity;
-    const Eigen::Matrix<double, 2, 3> J = residualJacobian(map.camera, p, plain).topRows<2>();
+    const Matrix23d J = residualJacobian(camera, p, plain).topRows<2>();
     o.by_pose = byPose(J, p);
     o.by_landmark = J * keyframe.T_cam_world.R;
     return o;

@@ -43,10 +43,10 @@ void SlamMap::save(ByteWriter& out) const {
     out.putCount(fixed_);
 }
 
-void SlamMap::load(ByteReader& in, const Camera& camera) {
+void SlamMap::load(ByteReader& in, const RigCameras& cameras) {
     const std::size_t keyframes = in.getCount(keyframe_bytes);
     for (std::size_t id = 0; id < keyframes; ++id) {
-        keyframes_.push_back(getKeyframe(in, static_cast<int>(id), keyframes, camera, levels()));
+        keyframes_.push_back(getKeyframe(in, static_cast<int>(id), keyframes, cameras, levels()));
     }
     checkCulled(keyframes_);
     votes_.assign(keyframes, 0);
@@ -54,7 +54,8 @@ void SlamMap::load(ByteReader& in, const Camera& camera) {
     for (std::size_t id = 0; id < landmarks_.size(); ++id) {
         landmarks_[id].alive = getFlag(in);
         if (!landmarks_[id].alive) continue;
-        landmarks_[id] = getLandmark(in, static_cast<int>(id), keyframes_, levels());
+        landmarks_[id] =
+            getLandmark(in, static_cast<int>(id), keyframes_, levels(), cameras.count());
         ++alive_;
     }
     loadDead(in);
@@ -121,7 +122,8 @@ int SlamMap::addLandmark(const Eigen::Vector3d& position, int keyframe, int keyp
     landmark.first_keyframe = keyframe;
     if (!frame.patches.empty()) {
         landmark.patch = std::make_shared<LandmarkPatch>(
-            LandmarkPatch{frame.patches[keypoint], frame.keypoints[keypoint].octave});
+            LandmarkPatch{frame.patches[keypoint], frame.keypoints[keypoint].octave,
+                          frame.keypoints[keypoint].camera});
         frame.keypoints[keypoint].aligned = true;
     }
     ++alive_;

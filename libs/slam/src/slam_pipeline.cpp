@@ -15,29 +15,53 @@ constexpr int final_iterations = 10;
 
 }  // namespace
 
-SlamPipeline::SlamPipeline(const SlamOptions& options, const Camera& camera)
+std::vector<FrameBuilder> SlamPipeline::buildersFor(const FeatureOptions& features,
+                                                    const Rig& rig) {
+    std::vector<FrameBuilder> builders;
+    for (const RigCamera& camera : rig.cameras) builders.emplace_back(features, camera.model);
+    return builders;
+}
+
+SlamPipeline::SlamPipeline(const SlamOptions& options, const Rig& rig)
     : options_(options),
-      camera_(camera),
-      builder_(options_.features, camera_),
+      rig_(rig),
+      cameras_(rig_),
+      builders_(buildersFor(options_.features, rig_)),
       map_(options_.features.scale_factor, options_.features.levels),
-      tracker_(options_, camera_, map_),
-      mapper_(options_, camera_, map_),
-      global_adjuster_(options_, camera_, map_),
-      closer_(options_, camera_, map_),
-      edges_(options_.sensor, camera_, map_),
+      tracker_(options_, cameras_, map_),
+      mapper_(options_, cameras_, map_),
+      global_adjuster_(options_, cameras_, map_),
+      closer_(options_, cameras_, map_),
+      edges_(options_.sensor, cameras_, map_),
       fallback_(options_.recovery, tracker_),
-      relocalizer_(options_, camera_, map_, closer_, tracker_),
+      relocalizer_(options_, cameras_, map_, closer_, tracker_),
       decision_(options_.keyframes) {}
 
-Frame SlamPipeline::prepare(const RgbdImage& image) const {
+Frame SlamPipeline::prepare(const std::vector<CameraImage>& images) const {
     Frame frame;
-    times_.measure("extract", [&] { frame = builder_.build(image); });
+    times_.measure("extract", [&] { frame = build(images); });
+    return frame;
+}
+
+Frame SlamPipeline::build(const std::vector<CameraImage>& images) const {
+    Frame frame;
+    if (!images.empty()) frame.stamp_s = images.front().image.stamp_s;
+    for (const CameraImage& image : images) {
+        Frame seen = builders_.at(image.camera).build(image.image);
+        if (image.camera == 0) {
+            seen.stamp_s = frame.stamp_s;
+            frame = std::move(seen);
+        } else {
+            append(std::move(seen), image.camera, frame);
+        }
+    }
+    if (cameras_.count() > 1) frame.grid = cameras_.gridOf(frame.keypoints);
     return frame;
 }
 
 void SlamPipeline::restore(MapSnapshot snapshot, MapUse use) {
-    requireFits(snapshot, options_.features, camera_, use);
-    seeWith(camera_, snapshot);
+    requireFits(snapshot, options_.features, rig_, use);
+    seeWith(rig_, snapshot);
     map_.restore(std::move(snapshot.keyframes), std::move(snapshot.landmarks));
     times_.measure("place-index", [&] { closer_.restore(std::move(snapshot.loops)); });
     decision_.reset(map_.keyframes().back());
@@ -65,12 +89,12 @@ void SlamPipeline::save(ByteWriter& out) const {
 }
 
 void SlamPipeline::load(ByteReader& in) {
-    map_.load(in, camera_);
+    map_.load(in, cameras_);
     tracker_.load(in);
     mapper_.load(in);
     global_adjuster_.load(in);
     closer_.load(in);
-    fallback_.load(in, camera_, builder_.viewCamera(), map_.levels());
+    fallback_.load(in, cameras_, builders_.front().viewCamera(), map_.levels());
     relocalizer_.load(in);
     decision_.load(in, map_.keyframes().size());
     trajectory_.load(in, map_.keyframes().size());
@@ -130,7 +154,7 @@ std::optional<LocatedFrame> SlamPipeline::trackBelievably(Frame& frame, FrameRec
     if (options_.tracker.detect_standstill) {
         const int nearest = map_.observers(located->landmarks).front().keyframe;
         const Keyframe& keyframe = map_.keyframe(nearest);
-        if (standsAt(keyframe, frame, located->landmarks, map_, camera_)) {
+        if (standsAt(keyframe, frame, located->landmarks, map_, cameras_)) {
             located->T_cam_world = keyframe.T_cam_world;
         }
     }
@@ -350,7 +374,7 @@ std::vector<LandmarkView> SlamPipeline::landmarks() const {
 }
 
 MapSnapshot SlamPipeline::snapshot() const {
-    return takeSnapshot(map_, camera_, options_.features.scale_factor, closer_.loops());
+    return takeSnapshot(map_, rig_, options_.features.scale_factor, closer_.loops());
 }
 
 }  // namespace rgbd_graphslam

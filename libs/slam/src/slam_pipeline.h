@@ -25,11 +25,11 @@ namespace rgbd_graphslam {
  *  public functions are VisualSlam's. */
 class SlamPipeline {
   public:
-    SlamPipeline(const SlamOptions& options, const Camera& camera);
+    SlamPipeline(const SlamOptions& options, const Rig& rig);
     /** Starts from a map. \throws Error when it does not fit the options or the camera */
     void restore(MapSnapshot snapshot, MapUse use);
 
-    Frame prepare(const RgbdImage& image) const;
+    Frame prepare(const std::vector<CameraImage>& images) const;
     TrackedFrame track(Frame frame);
     std::vector<PoseEdge> closeLoops(int keyframe);
     std::vector<PoseEdge> findLoops(int keyframe);
@@ -51,6 +51,8 @@ class SlamPipeline {
     void load(ByteReader& in);
 
   private:
+    static std::vector<FrameBuilder> buildersFor(const FeatureOptions& features, const Rig& rig);
+    Frame build(const std::vector<CameraImage>& images) const;
     void start(Frame frame, FrameRecord& record);
     std::optional<Prediction> prediction(const Frame& frame) const;
     std::optional<LocatedFrame> trackBelievably(Frame& frame, FrameRecord& record);
@@ -68,8 +70,9 @@ class SlamPipeline {
     void mergeSubmaps(const PoseEdge& loop);
 
     const SlamOptions options_;
-    const Camera camera_;
-    const FrameBuilder builder_;
+    const Rig rig_;
+    const RigCameras cameras_;
+    const std::vector<FrameBuilder> builders_;  // one per camera
     SlamMap map_;
     Tracker tracker_;
     LocalMapper mapper_;

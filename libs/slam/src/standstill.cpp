@@ -31,7 +31,7 @@ struct Quarter {
 }  // namespace
 
 bool standsAt(const Keyframe& keyframe, const Frame& frame, const std::vector<int>& landmarks,
-              const SlamMap& map, const Camera& camera) {
+              const SlamMap& map, const RigCameras& cameras) {
     std::array<Quarter, 4> quarters;
     for (std::size_t i = 0; i < landmarks.size(); ++i) {
         if (landmarks[i] == no_landmark) continue;
@@ -39,6 +39,8 @@ bool standsAt(const Keyframe& keyframe, const Frame& frame, const std::vector<in
         if (seen_as < 0) continue;
         const Keypoint& now = frame.keypoints[i];
         const Keypoint& then = keyframe.frame.keypoints[seen_as];
+        if (now.camera != then.camera) continue;
+        const CameraModel& camera = cameras[now.camera].camera();
         const int column = 2 * then.u > static_cast<float>(camera.width);
         const int row = 2 * then.v > static_cast<float>(camera.height);
         quarters[2 * row + column].du.push_back(now.u - then.u);

@@ -9,6 +9,6 @@ namespace rgbd_graphslam {
  *  quarter by quarter of the image: where their medians agree in three quarters to a fraction of a
  *  pixel, the camera has not moved, whatever the other quarter and the depths say. */
 bool standsAt(const Keyframe& keyframe, const Frame& frame, const std::vector<int>& landmarks,
-              const SlamMap& map, const Camera& camera);
+              const SlamMap& map, const RigCameras& cameras);
 
 }  // namespace rgbd_graphslam

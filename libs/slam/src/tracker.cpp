@@ -53,7 +53,7 @@ KeypointMatches collect(const Frame& frame, const std::vector<int>& landmarks, c
         result.keypoints.push_back(static_cast<int>(i));
         result.matches.push_back({landmark.position,
                                   measurementOf(keypoint, map.scaleOf(keypoint.octave), sensor),
-                                  trustIn(landmark.observations.size())});
+                                  trustIn(landmark.observations.size()), keypoint.camera});
     }
     return result;
 }
@@ -65,8 +65,8 @@ std::vector<PointMatch> matchesOf(const Frame& frame, const std::vector<int>& la
     return collect(frame, landmarks, map, sensor).matches;
 }
 
-Tracker::Tracker(const SlamOptions& options, const Camera& camera, SlamMap& map)
-    : options_(options), camera_(camera), map_(map) {}
+Tracker::Tracker(const SlamOptions& options, const RigCameras& cameras, SlamMap& map)
+    : options_(options), cameras_(cameras), map_(map) {}
 
 SE3 Tracker::lastPose() const {
     return last_->T_cam_reference * map_.T_cam_world(last_->reference_keyframe);
@@ -97,7 +97,7 @@ void Tracker::load(ByteReader& in) {
     last_.reset();
     if (!getFlag(in)) return;
     Last last;
-    last.frame = getFrame(in, camera_, map_.levels());
+    last.frame = getFrame(in, cameras_, map_.levels());
     last.landmarks = getLandmarks(in, map_.landmarks().size());
     if (last.landmarks.size() != last.frame.keypoints.size()) {
         throw DamagedBytes("landmarks of a frame without their keypoints");
@@ -115,7 +115,8 @@ std::vector<FeatureView> Tracker::features() const {
         const int landmark = last_->landmarks[i];
         const bool is_new = landmark == no_landmark;
         features.push_back({{keypoint.u, keypoint.v},
-                            is_new ? FeatureView::State::New : FeatureView::State::Tracked});
+                            is_new ? FeatureView::State::New : FeatureView::State::Tracked,
+                            keypoint.camera});
     }
     addMissed(features);
     return features;
@@ -128,10 +129,11 @@ void Tracker::addMissed(std::vector<FeatureView>& features) const {
     for (const int landmark : landmarks_before_) {
         if (landmark == no_landmark || !map_.landmark(landmark).alive) continue;
         if (std::binary_search(found.begin(), found.end(), landmark)) continue;
-        const Eigen::Vector3d p = T_cam_world * map_.landmark(landmark).position;
-        if (p.z() < nearest_depth_m) continue;
-        const Eigen::Vector2d pixel = camera_.project(p);
-        if (camera_.contains(pixel)) features.push_back({pixel, FeatureView::State::Lost});
+        cameras_.visitViews(T_cam_world * map_.landmark(landmark).position,
+                            [&](int camera, const Eigen::Vector2d& pixel, double /*depth_m*/) {
+                                features.push_back({pixel, FeatureView::State::Lost, camera});
+                                return false;
+                            });
     }
 }
 
@@ -182,30 +184,27 @@ std::vector<int> Tracker::matchLast(const Frame& frame, const SE3& predicted, do
             positions[i] = map_.landmark(landmark).position;
             trust[i] = trustIn(map_.landmark(landmark).observations.size());
         } else if (keypoint.depth_m > 0) {
-            positions[i] =
-                T_world_last * camera_.unproject(keypoint.u, keypoint.v, keypoint.depth_m);
+            positions[i] = T_world_last * cameras_.pointOf(keypoint);
         } else {
             continue;
         }
-        const Eigen::Vector3d p = predicted * positions[i];
-        if (p.z() < nearest_depth_m) continue;
-        const Eigen::Vector2d pixel = camera_.project(p);
-        if (!camera_.contains(pixel)) continue;
         const auto radius = static_cast<float>(window_px * map_.scaleOf(keypoint.octave));
-        table.search(static_cast<int>(i), last_->frame.descriptors[i],
-                     {static_cast<float>(pixel.x()), static_cast<float>(pixel.y()), radius,
-                      keypoint.octave - 1, keypoint.octave + 1},
-                     options_.tracker.max_hamming, motion_match_ratio);
+        cameras_.visitViews(predicted * positions[i], [&](int camera, const Eigen::Vector2d& pixel,
+                                                          double /*depth_m*/) {
+            return table.search(static_cast<int>(i), last_->frame.descriptors[i],
+                                windowAt(camera, pixel, radius, keypoint.octave),
+                                options_.tracker.max_hamming, motion_match_ratio);
+        });
     }
     const auto pairs = table.matches();
     std::vector<PointMatch> matches;
     for (const auto& [keypoint, point] : pairs) {
         const Keypoint& k = frame.keypoints[keypoint];
         matches.push_back({positions[point],
-                           measurementOf(k, map_.scaleOf(k.octave), options_.sensor),
-                           trust[point]});
+                           measurementOf(k, map_.scaleOf(k.octave), options_.sensor), trust[point],
+                           k.camera});
     }
-    solution = solvePose(camera_, matches, predicted);
+    solution = solvePose(cameras_.mounted(), matches, predicted);
     std::vector<int> landmarks(frame.keypoints.size(), no_landmark);
     for (std::size_t m = 0; m < pairs.size(); ++m) {
         const int landmark = last_->landmarks[pairs[m].second];
@@ -222,10 +221,10 @@ std::optional<LocatedFrame> Tracker::trackLocalMap(Frame& frame, const SE3& T_ca
     located.landmarks = landmarks;
     located.expected = searchLocalLandmarks(frame, T_cam_world, located.landmarks);
     if (options_.tracker.align_keypoints) {
-        alignKeypoints(frame, located.landmarks, T_cam_world, camera_, map_);
+        alignKeypoints(frame, located.landmarks, T_cam_world, cameras_, map_);
     }
     const auto found = collect(frame, located.landmarks, map_, options_.sensor);
-    const PoseSolution solution = solvePose(camera_, found.matches, T_cam_world, kernel);
+    const PoseSolution solution = solvePose(cameras_.mounted(), found.matches, T_cam_world, kernel);
     if (solution.inliers < options_.tracker.min_inliers) return std::nullopt;
     located.T_cam_world = solution.T_body_world;
     located.inliers = solution.inliers;
@@ -293,17 +292,17 @@ std::optional<SE3> Tracker::alignAround(const Frame& frame, const ExpectedPose& 
         if (k.depth_m <= 0) continue;
         pairs.emplace_back(keypoint, id);
         matches.push_back({map_.landmark(id).position,
-                           measurementOf(k, map_.scaleOf(k.octave), options_.sensor)});
-        points_cam.push_back(camera_.unproject(k.u, k.v, k.depth_m));
+                           measurementOf(k, map_.scaleOf(k.octave), options_.sensor), 1, k.camera});
+        points_cam.push_back(cameras_.pointOf(k));
     }
     if (static_cast<int>(matches.size()) < fewest_aligned) return std::nullopt;
     const auto aligned =
-        alignRobustly(camera_, matches, points_cam, options_.loops.ransac_iterations, 0);
+        alignRobustly(cameras_, matches, points_cam, options_.loops.ransac_iterations, 0);
     if (!aligned || aligned->inliers < fewest_aligned) return std::nullopt;
     for (std::size_t m = 0; m < pairs.size(); ++m) {
         if (aligned->inlier[m]) landmarks[pairs[m].first] = pairs[m].second;
     }
-    return solvePose(camera_, matches, aligned->T_cam_world).T_body_world;
+    return solvePose(cameras_.mounted(), matches, aligned->T_cam_world).T_body_world;
 }
 
 /** \return (keypoint, landmark) */
@@ -312,27 +311,28 @@ std::vector<std::pair<int, int>> Tracker::matchAround(const Frame& frame,
                                                       const std::vector<int>& keyframes) {
     ++search_;
     visited_.resize(map_.landmarks().size(), 0);
-    ProjectedSearch search(frame, expected.T_cam_world, camera_, map_);
+    ProjectedSearch search(frame, expected.T_cam_world, cameras_, map_);
     for (const int id : landmarksOf(keyframes)) {
-        const auto projected = search.project(id);
-        if (!projected) continue;
-        const double uncertain_px = window_sigmas * camera_.fx *
-                                    (expected.sigma_m / projected->depth_m + expected.sigma_rad);
-        if (uncertain_px > widest_window * camera_.width) continue;
-        const int octave = search.octave(*projected);
-        if (!search.isInPyramid(octave)) continue;
-        search.search(*projected, octave,
-                      {options_.tracker.map_window_px, uncertain_px, options_.tracker.max_hamming,
-                       map_match_ratio});
+        search.visitViews(id, [&](const ProjectedLandmark& view) {
+            const CameraModel& camera = cameras_[view.camera].camera();
+            const double uncertain_px = window_sigmas * camera.pixelsPerRadian().x() *
+                                        (expected.sigma_m / view.depth_m + expected.sigma_rad);
+            const int octave = search.octave(view);
+            if (uncertain_px > widest_window * camera.width || !search.isInPyramid(octave))
+                return false;
+            return search.search(view, octave,
+                                 {options_.tracker.map_window_px, uncertain_px,
+                                  options_.tracker.max_hamming, map_match_ratio});
+        });
     }
     return search.matches();
 }
 
-/** \return how many landmarks the pose puts into the image */
+/** \return how many landmarks the pose puts into the images */
 int Tracker::searchLocalLandmarks(const Frame& frame, const SE3& T_cam_world,
                                   std::vector<int>& landmarks) {
     int expected = 0;
-    ProjectedSearch search(frame, T_cam_world, camera_, map_);
+    ProjectedSearch search(frame, T_cam_world, cameras_, map_);
     for (std::size_t i = 0; i < landmarks.size(); ++i) {
         if (landmarks[i] == no_landmark) continue;
         search.reserve(static_cast<int>(i));
@@ -342,13 +342,17 @@ int Tracker::searchLocalLandmarks(const Frame& frame, const SE3& T_cam_world,
     const SearchLimits limits{options_.tracker.map_window_px, 0, options_.tracker.max_hamming,
                               map_match_ratio};
     for (const int id : localLandmarks(landmarks)) {
-        const auto projected = search.project(id);
-        if (!projected || !isSeenFromItsSide(*projected, map_.landmark(id))) continue;
-        const int octave = search.octave(*projected);
-        if (!search.isInPyramid(octave)) continue;
+        bool in_view = false;
+        search.visitViews(id, [&](const ProjectedLandmark& view) {
+            if (!isSeenFromItsSide(view, map_.landmark(id))) return false;
+            const int octave = search.octave(view);
+            if (!search.isInPyramid(octave)) return false;
+            in_view = true;
+            return search.search(view, octave, limits);
+        });
+        if (!in_view) continue;
         map_.noteExpected(id);
         ++expected;
-        search.search(*projected, octave, limits);
     }
     for (const auto& [keypoint, landmark] : search.matches()) landmarks[keypoint] = landmark;
     return expected;

@@ -20,19 +20,22 @@ const char* toString(FrameOrigin origin) {
     return "lost";
 }
 
-VisualSlam::VisualSlam(const SlamOptions& options, const Camera& camera)
-    : pipeline_(std::make_unique<SlamPipeline>(options, camera)) {}
+VisualSlam::VisualSlam(const SlamOptions& options, const Rig& rig)
+    : pipeline_(std::make_unique<SlamPipeline>(options, rig)) {}
 
-VisualSlam::VisualSlam(const SlamOptions& options, const Camera& camera, MapSnapshot map,
-                       MapUse use)
-    : VisualSlam(options, camera) {
+VisualSlam::VisualSlam(const SlamOptions& options, const Rig& rig, MapSnapshot map, MapUse use)
+    : VisualSlam(options, rig) {
     pipeline_->restore(std::move(map), use);
 }
 
 VisualSlam::~VisualSlam() = default;
 
 Frame VisualSlam::prepare(const RgbdImage& image) const {
-    return pipeline_->prepare(image);
+    return prepare(std::vector<CameraImage>{{0, image}});
+}
+
+Frame VisualSlam::prepare(const std::vector<CameraImage>& images) const {
+    return pipeline_->prepare(images);
 }
 
 TrackedFrame VisualSlam::track(Frame frame) {

@@ -241,8 +241,9 @@ cv::Mat Renderer::Impl::draw(const SE3& T_world_cam, const Vector2d& shift_px,
     intrinsics.ncols = camera_.width;
     intrinsics.nrows = camera_.height;
     // OpenGL's pixel centers are at halves, ours at whole numbers.
-    intrinsics.setIntrinsicParamsFromValues(camera_.fx, camera_.fy, camera_.cx + 0.5 + shift_px.x(),
-                                            camera_.cy + 0.5 + shift_px.y());
+    const Intrinsics own = camera_.intrinsics();
+    intrinsics.setIntrinsicParamsFromValues(own.fx, own.fy, own.cx + 0.5 + shift_px.x(),
+                                            own.cy + 0.5 + shift_px.y());
     mrpt::opengl::CCamera eye;
     eye.set6DOFMode(true);
     eye.setProjectiveFromPinhole(intrinsics);

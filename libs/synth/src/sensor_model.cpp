@@ -52,9 +52,11 @@ double incidenceCosine(const cv::Mat& truth, const Camera& camera, int u, int v)
     const double z = truth.at<float>(v, u);
     const double right = truth.at<float>(v, u + 1), below = truth.at<float>(v + 1, u);
     if (right <= 0 || below <= 0) return 0;
-    const double slope_u = (1 / right - 1 / z) * camera.fx,
-                 slope_v = (1 / below - 1 / z) * camera.fy;
-    const double x = (u - camera.cx) / camera.fx, y = (v - camera.cy) / camera.fy;
+    const Eigen::Vector2d focal_px = camera.pixelsPerRadian();
+    const double slope_u = (1 / right - 1 / z) * focal_px.x(),
+                 slope_v = (1 / below - 1 / z) * focal_px.y();
+    const Eigen::Vector2d ray = camera.toPlane(Eigen::Vector2d(u, v));
+    const double x = ray.x(), y = ray.y();
     const double along = 1 / z - slope_u * x - slope_v * y;
     const double normal = std::sqrt(slope_u * slope_u + slope_v * slope_v + along * along);
     return (1 / z) / (normal * std::sqrt(x * x + y * y + 1));
@@ -105,7 +107,7 @@ cv::Mat senseDepth(const cv::Mat& depth, const Camera& camera, const DepthSensor
             readings.at<float>(v, u) =
                 static_cast<float>(measured(z, deviate.at<float>(v, u), disparity_m_px, model));
         }
-    dropShadows(depth, model.baseline_m * camera.fx, readings);
+    dropShadows(depth, model.baseline_m * camera.pixelsPerRadian().x(), readings);
     return readings;
 }
 

@@ -60,7 +60,7 @@ class Film {
     /** Pixels that the picture of a point 1.5 m ahead travels between two times. */
     double blur_px(double from, double to) const {
         const SE3 moved = world_.motion.T_world_cam(from).inverse() * world_.motion.T_world_cam(to);
-        return camera_.fx * (moved.angle() + moved.t.norm() / 1.5);
+        return camera_.pixelsPerRadian().x() * (moved.angle() + moved.t.norm() / 1.5);
     }
 
     /** Mean of pictures over the shutter time, each shifted by another part of a pixel: motion
@@ -143,6 +143,32 @@ class Film {
     BackgroundJobs jobs_;
 };
 
+/** From the optical frame of a mounted camera to that of the scenario's. */
+SE3 mountedAt(const std::array<double, 6>& mount) {
+    using Eigen::AngleAxisd;
+    using Eigen::Vector3d;
+    const double rad = M_PI / 180;
+    const Eigen::Matrix3d R = (AngleAxisd(mount[3] * rad, Vector3d::UnitZ()) *
+                               AngleAxisd(mount[4] * rad, Vector3d::UnitY()) *
+                               AngleAxisd(mount[5] * rad, Vector3d::UnitX()))
+                                  .toRotationMatrix();
+    const SE3 T_sensor_mount(R, Vector3d(mount[0], mount[1], mount[2]));
+    const SE3 T_sensor_optical(robotCamera().R, Vector3d::Zero());
+    return T_sensor_optical.inverse() * T_sensor_mount * T_sensor_optical;
+}
+
+/** The same world on the way of another camera of the rig. */
+World seenFrom(const std::array<double, 6>& mount, World world) {
+    world.motion.T_world_cam = [first = world.motion.T_world_cam, T = mountedAt(mount)](double t) {
+        return first(t) * T;
+    };
+    return world;
+}
+
+bool isMounted(const std::array<double, 6>& mount) {
+    return mount != std::array<double, 6>{};
+}
+
 void makeEmptyFolder(const std::string& folder) {
     makeWritableFolder(folder);
     if (!std::filesystem::is_empty(folder))
@@ -151,7 +177,7 @@ void makeEmptyFolder(const std::string& folder) {
 }  // namespace
 
 Camera synthCamera(int width, int height) {
-    Camera camera;
+    Intrinsics camera;
     const double scale = width / 640.0;
     camera.width = width;
     camera.height = height;
@@ -197,11 +223,13 @@ FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std
     makeEmptyFolder(folder);
     makeWritableFolder(folder + "/rgb");
     makeWritableFolder(folder + "/depth");
-    const World world = scenario.build(options.session, options.seed);
+    World world = scenario.build(options.session, options.seed);
+    if (isMounted(options.mount)) world = seenFrom(options.mount, std::move(world));
     const Scene scene = world.scene();
     writeSurface(folder + "/surface.ply", scene);
     const Camera camera = synthCamera(options.width, options.height);
-    writeCameraIni(folder, camera, static_cast<bool>(world.motion.T_world_base));
+    writeCameraIni(folder, camera.intrinsics(), static_cast<bool>(world.motion.T_world_base),
+                   options.mount);
     writeMotionFiles(folder, options, world.motion, frames);
 
     Film shooting(world, scene, options, folder);

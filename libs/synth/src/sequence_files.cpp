@@ -113,7 +113,8 @@ void writeMotionFiles(const std::string& folder, const FilmOptions& options, con
     if (motion.T_world_base) writeOdometry(folder + "/odometry.txt", options, motion, frames);
 }
 
-void writeCameraIni(const std::string& folder, const Camera& camera, bool on_robot) {
+void writeCameraIni(const std::string& folder, const Intrinsics& camera, bool on_robot,
+                    const std::array<double, 6>& mount) {
     std::string text = formatted(
         "[CAMERA_PARAMS]\n"
         "resolution = [%d %d]\n"
@@ -122,7 +123,8 @@ void writeCameraIni(const std::string& folder, const Camera& camera, bool on_rob
         "depth_units = 5000\n",
         camera.width, camera.height, camera.cx, camera.cy, camera.fx, camera.fy);
     const Eigen::Vector3d at = on_robot ? robotCamera().t : Eigen::Vector3d::Zero();
-    text += formatted("sensor_pose = [%.3f %.3f %.3f 0 0 0]\n", at.x(), at.y(), at.z());
+    text += formatted("sensor_pose = [%.3f %.3f %.3f %g %g %g]\n", at.x() + mount[0],
+                      at.y() + mount[1], at.z() + mount[2], mount[3], mount[4], mount[5]);
     text += "imu_pose = [0 0 0 -90 0 -90]\n";  // the optical frame
     writeTextAtomically(folder + "/camera.ini", text);
 }

@@ -16,7 +16,9 @@ void writePictureLists(const std::string& folder, const FilmOptions& options, in
 /** Truth at 100 Hz, inertial readings at 200 Hz and, for planar robots, odometry at 20 Hz. */
 void writeMotionFiles(const std::string& folder, const FilmOptions& options, const Motion& motion,
                       int frames);
-void writeCameraIni(const std::string& folder, const Camera& camera, bool on_robot);
+/** \param mount as FilmOptions::mount */
+void writeCameraIni(const std::string& folder, const Intrinsics& camera, bool on_robot,
+                    const std::array<double, 6>& mount);
 /** The faces that stand still, as triangles, binary PLY. */
 void writeSurface(const std::string& path, const Scene& scene);
 

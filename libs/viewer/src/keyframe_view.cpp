@@ -25,18 +25,15 @@ int stepFor(const cv::Size& size) {
 Vertices keyframePoints(const cv::Mat& color, const cv::Mat& depth, double depth_unit_m,
                         const Camera& camera) {
     const int step = stepFor(depth.size());
-    const bool is_distorted = camera.hasDistortion();  // undoing it takes most of the time
     Vertices points;
     points.reserve(points_a_keyframe);
     for (int v = step / 2; v < depth.rows; v += step) {
         for (int u = step / 2; u < depth.cols; u += step) {
             const double z = depth_unit_m * depth.at<std::uint16_t>(v, u);
             if (z < nearest_m || z > farthest_point_m) continue;
-            const Eigen::Vector2d seen(u, v);
-            const Eigen::Vector2d pixel = is_distorted ? camera.undistort(seen) : seen;
             const auto& bgr = color.at<cv::Vec3b>(v, u);
-            points.push_back({camera.unproject(pixel.x(), pixel.y(), z).cast<float>(),
-                              {bgr[2], bgr[1], bgr[0], 255}});
+            points.push_back(
+                {camera.unproject(u, v, z).cast<float>(), {bgr[2], bgr[1], bgr[0], 255}});
         }
     }
     shufflePoints(points);

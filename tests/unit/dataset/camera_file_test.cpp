@@ -31,7 +31,7 @@ void expectSame(const CameraSetup& a, const CameraSetup& b) {
     EXPECT_EQ(a.camera.fy, b.camera.fy);
     EXPECT_EQ(a.camera.cx, b.camera.cx);
     EXPECT_EQ(a.camera.cy, b.camera.cy);
-    EXPECT_EQ(a.camera.distortion, b.camera.distortion);
+    EXPECT_TRUE(a.camera.lens == b.camera.lens);
     EXPECT_EQ(a.depth_units, b.depth_units);
     EXPECT_EQ(a.depth_scale, b.depth_scale);
     EXPECT_LT((a.T_base_sensor.R - b.T_base_sensor.R).norm(), 1e-12);
@@ -88,7 +88,7 @@ TEST(CameraFile, textIsUnderstoodByMrpt) {
 }
 
 TEST(CameraFile, coefficientsCountWithoutTheNameOfTheModel) {
-    EXPECT_EQ(readText(minimal + "dist = [0.1 0 0 0 0]\n").camera.distortion[0], 0.1);
+    EXPECT_EQ(lensCoefficients(readText(minimal + "dist = [0.1 0 0 0 0]\n").camera.lens)[0], 0.1);
     EXPECT_FALSE(readText(minimal).camera.hasDistortion());
     EXPECT_FALSE(readText(minimal + "distortion_model = none\ndist = [0.1 0 0 0 0]\n")
                      .camera.hasDistortion());
@@ -107,8 +107,20 @@ TEST(CameraFile, keysThatDifferInCaseAreOneAndRefusedTwice) {
 }
 
 TEST(CameraFile, fourCoefficientsAreThoseWithoutK3) {
-    const std::array<double, 5> expected = {0.1, -0.2, 0.001, 0.002, 0};
-    EXPECT_EQ(readText(minimal + "dist = [0.1 -0.2 0.001 0.002]\n").camera.distortion, expected);
+    const Lens expected = BrownLens{{0.1, -0.2, 0.001, 0.002}};
+    EXPECT_TRUE(readText(minimal + "dist = [0.1 -0.2 0.001 0.002]\n").camera.lens == expected);
+}
+
+TEST(CameraFile, rationalAndFisheyeLensesComeBackAsTheyWere) {
+    for (const std::string text :
+         {"dist = [0.5 -2.7 0.001 -0.002 1.6 0.4 -2.5 1.5]\n",
+          "distortion_model = kannala_brandt\ndist = [0.1 0 0.02 -0.01]\n"}) {
+        const TestFolder folder;
+        const CameraSetup setup = readText(minimal + text);
+        EXPECT_TRUE(setup.camera.hasDistortion());
+        folder.write("camera.ini", toIniText(setup));
+        expectSame(readCameraFile(folder / "camera.ini"), setup);
+    }
 }
 
 TEST(CameraFile, principalPointsOutsideTheImageAreRefused) {
@@ -125,7 +137,7 @@ TEST(CameraFile, principalPointsOutsideTheImageAreRefused) {
 }
 
 TEST(CameraFile, fieldsOfViewThatNoUsualCameraHasAreDoubted) {
-    Camera camera{640, 480, 525, 525, 319.5, 239.5, {}};
+    Intrinsics camera{640, 480, 525, 525, 319.5, 239.5, {}};
     EXPECT_TRUE(doubtsOf(camera).empty());
     camera.fx = 3000;
     EXPECT_THAT(doubtsOf(camera), ::testing::ElementsAre(HasSubstr("12 degrees")));
@@ -134,14 +146,14 @@ TEST(CameraFile, fieldsOfViewThatNoUsualCameraHasAreDoubted) {
 }
 
 TEST(CameraFile, calibrationsFitImagesOfAnExactFraction) {
-    const Camera camera{640, 480, 520, 521, 325.1, 249.7, {0.1, 0, 0, 0, 0}};
+    const Intrinsics camera{640, 480, 520, 521, 325.1, 249.7, BrownLens{{0.1, 0, 0, 0, 0}}};
     const auto half = resizedTo(camera, 320, 240);
     ASSERT_TRUE(half);
     EXPECT_EQ(half->fx, 260);
     EXPECT_NEAR(half->cx, 162.3, 1e-9);
     const Eigen::Vector3d point(0.3, -0.2, 1.5);
-    const Eigen::Vector2d full = camera.distort(camera.project(point));
-    const Eigen::Vector2d small = half->distort(half->project(point));
+    const Eigen::Vector2d full = CameraModel(camera).project(point);
+    const Eigen::Vector2d small = CameraModel(*half).project(point);
     EXPECT_LT((small - ((full.array() + 0.5) / 2 - 0.5).matrix()).norm(), 1e-9);
     EXPECT_TRUE(resizedTo(camera, 1280, 960));
     EXPECT_TRUE(resizedTo(camera, 640, 480));
@@ -157,8 +169,10 @@ TEST(CameraFile, mistakesAreNamed) {
     EXPECT_THAT(complaintAbout(minimal + "dist = [0.1 zero 0 0 0]\n"),
                 HasSubstr("'zero' is no number"));
     EXPECT_THAT(complaintAbout(minimal + "dist = [0.1 0]\n"), HasSubstr("dist must be"));
-    EXPECT_THAT(complaintAbout(minimal + "distortion_model = kannala_brandt\ndist = [1 1 1 1]\n"),
-                HasSubstr("fish-eye"));
+    EXPECT_THAT(complaintAbout(minimal + "distortion_model = kannala_brandt\ndist = [1 1]\n"),
+                HasSubstr("dist must be [k1 k2 k3 k4]"));
+    EXPECT_THAT(complaintAbout(minimal + "distortion_model = kannala_brandt\ndist = [-4 0 0 0]\n"),
+                HasSubstr("cannot be undone"));
     EXPECT_THAT(complaintAbout(minimal + "distortion_model = curly\n"),
                 HasSubstr("distortion_model must be"));
     EXPECT_THAT(complaintAbout(minimal + "dist = [-3 0 0 0 0]\n"),

@@ -28,8 +28,7 @@ cv::Mat1w film(const Camera& camera, const SE3& T_color_cam) {
     cv::Mat1w depth(camera.height, camera.width, std::uint16_t{0});
     for (int v = 0; v < camera.height; ++v) {
         for (int u = 0; u < camera.width; ++u) {
-            const Eigen::Vector2d pixel = camera.undistort({u, v});
-            const Eigen::Vector3d ray = T_color_cam.R * camera.unproject(pixel.x(), pixel.y(), 1);
+            const Eigen::Vector3d ray = T_color_cam.R * camera.unproject(u, v, 1);
             const double z_color = cast(T_color_cam.t, ray);
             const Eigen::Vector3d hit =
                 T_color_cam.t + (z_color - T_color_cam.t.z()) / ray.z() * ray;
@@ -61,15 +60,16 @@ Agreement compare(const cv::Mat1w& registered, const cv::Mat1w& truth) {
 }
 
 TEST(DepthRegistration, theSameCameraChangesNothing) {
-    const Camera camera{160, 120, 130, 130, 79.5, 59.5, {}};
+    const Intrinsics camera{160, 120, 130, 130, 79.5, 59.5, {}};
     const cv::Mat1w depth = film(camera, {});
     const cv::Mat registered = DepthRegistration(camera, camera, {}, unit_m)(depth);
     EXPECT_EQ(cv::norm(registered, depth, cv::NORM_INF), 0);
 }
 
 TEST(DepthRegistration, depthComesToLieWhereColorSeesIt) {
-    const Camera depth_camera{160, 120, 145, 146, 78, 61, {}};
-    const Camera color_camera{200, 150, 150, 151, 100.5, 73, {0.1, -0.2, 0.001, -0.002, 0.05}};
+    const Intrinsics depth_camera{160, 120, 145, 146, 78, 61, {}};
+    const Intrinsics color_camera{
+        200, 150, 150, 151, 100.5, 73, BrownLens{{0.1, -0.2, 0.001, -0.002, 0.05}}};
     const SE3 T_color_depth(rotationExp({0.01, -0.02, 0.03}), {0.06, 0.01, -0.02});
     const cv::Mat1w registered = DepthRegistration(depth_camera, color_camera, T_color_depth,
                                                    unit_m)(film(depth_camera, T_color_depth));
@@ -82,7 +82,7 @@ TEST(DepthRegistration, depthComesToLieWhereColorSeesIt) {
 }
 
 TEST(DepthRegistration, whatIsBehindTheColorCameraOrTooFarIsLeftOut) {
-    const Camera camera{16, 12, 13, 13, 7.5, 5.5, {}};
+    const Intrinsics camera{16, 12, 13, 13, 7.5, 5.5, {}};
     const cv::Mat1w depth(12, 16, std::uint16_t{60000});
     EXPECT_EQ(cv::countNonZero(DepthRegistration(
                   camera, camera, {Eigen::Matrix3d::Identity(), {0, 0, -61}}, unit_m)(depth)),

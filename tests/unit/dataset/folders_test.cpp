@@ -59,7 +59,7 @@ class Folders : public ::testing::Test {
 
     static CameraSetup smallCamera() {
         CameraSetup setup;
-        setup.camera = Camera{32, 24, 30, 31, 15.5, 11.5, {}};
+        setup.camera = Intrinsics{32, 24, 30, 31, 15.5, 11.5, {}};
         return setup;
     }
 

@@ -231,7 +231,7 @@ TEST_F(ImportPlausibility, calibrationInARawlogForLargerImagesIsResized) {
     add(noise(64, 48, 0), readings(64, 48, 0, 500, 4000));
     import();
     const auto frame = frames().at(0);
-    frame->cameraParamsIntensity = toTCamera(Camera{128, 96, 120, 120, 63.5, 47.5, {}});
+    frame->cameraParamsIntensity = toTCamera(Intrinsics{128, 96, 120, 120, 63.5, 47.5, {}});
     frame->cameraParams = frame->cameraParamsIntensity;
     EXPECT_EQ(cameraOf(*frame).fx, 60);
     EXPECT_EQ(cameraOf(*frame).width, 64);

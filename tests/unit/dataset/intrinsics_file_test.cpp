@@ -20,7 +20,7 @@ class IntrinsicsFile : public ::testing::Test {
     std::string problem(const std::string& name, const std::string& text) const {
         return problemOf([&] { read(name, text); });
     }
-    static void expectCamera(const Camera& camera, double cx = 320.5) {
+    static void expectCamera(const Intrinsics& camera, double cx = 320.5) {
         EXPECT_EQ(camera.width, 640);
         EXPECT_EQ(camera.height, 480);
         EXPECT_EQ(camera.fx, 600);
@@ -49,9 +49,9 @@ TEST_F(IntrinsicsFile, librealsense) {
     EXPECT_FALSE(both.depth_units_assumed);
     std::string bent = one;
     bent.replace(bent.find("[0,"), 3, "[0.1,");
-    EXPECT_THAT(problem("a.json", bent), HasSubstr("'distortion.inverse_brown_conrady' is not"));
+    EXPECT_THAT(problem("a.json", bent), HasSubstr("'distortion.inverse_brown_conrady' with"));
     bent.replace(bent.find("inverse_"), 8, "");
-    EXPECT_EQ(read("a.json", bent).camera.distortion[0], 0.1);
+    EXPECT_EQ(lensCoefficients(read("a.json", bent).camera.lens)[0], 0.1);
 }
 
 TEST_F(IntrinsicsFile, open3dFlatAndNested) {
@@ -99,7 +99,7 @@ distortion_coefficients: !!opencv-matrix
   data: [0.1, -0.2, 0.001, 0.002, 0.]
 )");
     expectCamera(setup.camera);
-    EXPECT_EQ(setup.camera.distortion[1], -0.2);
+    EXPECT_EQ(lensCoefficients(setup.camera.lens)[1], -0.2);
 }
 
 TEST_F(IntrinsicsFile, rosMessagesAsTheyAreEchoed) {
@@ -131,11 +131,26 @@ cam1:
   intrinsics: [1, 1, 1, 1]
 )");
     expectCamera(setup.camera);
-    EXPECT_EQ(setup.camera.distortion[3], 0.002);
+    EXPECT_EQ(lensCoefficients(setup.camera.lens)[3], 0.002);
 }
 
 TEST_F(IntrinsicsFile, iniFilesAsEver) {
     EXPECT_EQ(read("camera.ini", small_sequence::cameraIni()).camera.fy, 31);
+}
+
+TEST_F(IntrinsicsFile, fisheyeAndRationalLenses) {
+    const CameraSetup kalibr = read("a.yaml",
+                                    "cam0:\n  camera_model: pinhole\n"
+                                    "  intrinsics: [458, 457, 367, 248]\n  resolution: [752, 480]\n"
+                                    "  distortion_model: equidistant\n"
+                                    "  distortion_coeffs: [0.1, 0.02, 0, -0.01]\n");
+    EXPECT_TRUE(kalibr.camera.lens == Lens(KannalaBrandtLens{{0.1, 0.02, 0, -0.01}}));
+    const CameraSetup azure =
+        read("a.json", R"({"w": 1280, "h": 720, "fx": 605, "fy": 605, "cx": 640,
+        "cy": 366, "distortion_model": "rational_polynomial",
+        "D": [0.52, -2.74, 0.0004, -0.0003, 1.59, 0.40, -2.55, 1.51]})");
+    EXPECT_EQ(lensModel(azure.camera.lens), "rational");
+    EXPECT_EQ(lensCoefficients(azure.camera.lens)[7], 1.51);
 }
 
 TEST_F(IntrinsicsFile, whatCannotBeUsedIsNamed) {
@@ -147,12 +162,13 @@ TEST_F(IntrinsicsFile, whatCannotBeUsedIsNamed) {
                 HasSubstr("no such size"));
     EXPECT_THAT(problem("a.yaml",
                         "intrinsics: [458, 457, 367, 248]\nresolution: [752, 480]\n"
-                        "distortion_model: equidistant\n"
+                        "distortion_model: omnidirectional\n"
                         "distortion_coefficients: [0.1, 0, 0, 0]\n"),
-                HasSubstr("'equidistant' is not supported"));
-    EXPECT_THAT(problem("a.json", R"({"w": 640, "h": 480, "fx": 6, "fy": 6, "cx": 1, "cy": 1,
-        "coeffs": [0.1, 0, 0, 0, 0, 2, 0, 0]})"),
-                HasSubstr("k4 to k6"));
+                HasSubstr("'omnidirectional' with 4 coefficients is not supported"));
+    EXPECT_THAT(
+        problem("a.json", R"({"w": 640, "h": 480, "fx": 600, "fy": 600, "cx": 320, "cy": 240,
+        "coeffs": [0.1, 0, 0, 0, 0, 0, 0, 0, 0.1, 0, 0, 0]})"),
+        HasSubstr("12 coefficients is not supported"));
     EXPECT_THAT(problem("a.yaml", "K: " + std::string(5000, '[')), HasSubstr("no usable fx"));
     EXPECT_THAT(
         problem("a.json", "{\"K\": " + std::string(5000, '[') + std::string(5000, ']') + "}"),

@@ -36,23 +36,32 @@ TEST(MrptConversions, stampsAgreeWithMrptsClock) {
 }
 
 TEST(MrptConversions, lensSurvives) {
-    Camera camera;
+    Intrinsics camera;
     camera.width = 320;
     camera.height = 200;
     camera.fx = 517.3;
     camera.fy = 516.5;
     camera.cx = 318.6;
     camera.cy = 255.3;
-    camera.distortion = {0.2624, -0.9531, -0.0054, 0.0026, 1.1633};
+    camera.lens = BrownLens{{0.2624, -0.9531, -0.0054, 0.0026, 1.1633}};
     const mrpt::img::TCamera mrpt_camera = toTCamera(camera);
     EXPECT_EQ(mrpt_camera.p1(), -0.0054);
     EXPECT_EQ(mrpt_camera.k3(), 1.1633);
-    const Camera back = toCamera(mrpt_camera);
+    const Intrinsics back = toCamera(mrpt_camera);
     EXPECT_EQ(back.width, 320);
     EXPECT_EQ(back.height, 200);
     EXPECT_EQ(back.fy, 516.5);
     EXPECT_EQ(back.cx, 318.6);
-    EXPECT_EQ(back.distortion, camera.distortion);
+    EXPECT_TRUE(back.lens == camera.lens);
+}
+
+TEST(MrptConversions, rationalAndFisheyeLensesSurvive) {
+    for (const Lens& lens : {Lens(BrownLens{{0.5, -2.7, 0.001, -0.002, 1.6, 0.4, -2.5, 1.5}}),
+                             Lens(KannalaBrandtLens{{0.1, 0.02, -0.003, 0.004}})}) {
+        Intrinsics camera;
+        camera.lens = lens;
+        EXPECT_TRUE(toCamera(toTCamera(camera)) == camera);
+    }
 }
 
 TEST(MrptConversions, coefficientsOfACameraWithoutLensModelAreIgnored) {

@@ -155,7 +155,7 @@ TEST_F(RawlogTest, calibrationAndPlaceOfTheSensorAreKept) {
     import();
     const auto frame = framesOf(rawlog()).front();
     EXPECT_EQ(cameraOf(*frame).fy, 31);
-    EXPECT_EQ(cameraOf(*frame).distortion[1], -0.2);
+    EXPECT_EQ(lensCoefficients(cameraOf(*frame).lens)[1], -0.2);
     EXPECT_TRUE(frame->cameraParams == frame->cameraParamsIntensity);
     EXPECT_TRUE(frame->doDepthAndIntensityCamerasCoincide());
     EXPECT_NEAR(frame->sensorPose.z(), 0.6, 1e-12);
@@ -306,7 +306,7 @@ TEST(RawlogOfRealFrames, roundTripKeepsEveryBit) {
 /** A depth camera with other pixels, turned a little against the color camera. */
 CameraSetup depthCamera() {
     CameraSetup setup;
-    setup.camera = Camera{24, 18, 22, 22, 11.5, 8.5, {}};
+    setup.camera = Intrinsics{24, 18, 22, 22, 11.5, 8.5, {}};
     setup.depth_units = 1000;
     setup.T_base_sensor = {rotationExp({0.05, 0.02, 0}), {0.1, 0.03, 0.6}};
     return setup;
@@ -373,15 +373,18 @@ TEST_F(RawlogTest, leftOverImagesAreCountedByReason) {
     EXPECT_TRUE(samePixels(toRgbdImage(framesOf(rawlog())[0]).color, small_sequence::color(1)));
 }
 
-TEST_F(RawlogTest, otherLensModelsAreRefused) {
+TEST_F(RawlogTest, lensesAreThoseOfTheRawlog) {
     import();
     const auto frame = framesOf(rawlog()).front();
+    const auto model = [&] { return lensModel(cameraOf(*frame).lens); };
     frame->cameraParamsIntensity.setDistortionKannalaBrandt(0.1, 0.02, 0, 0);
-    EXPECT_THAT(problemOf([&] { cameraOf(*frame); }), HasSubstr("fisheye or rational"));
+    EXPECT_EQ(model(), "kannala_brandt");
     frame->cameraParamsIntensity.setDistortionPlumbBob(0.1, 0, 0, 0, 0);
-    EXPECT_NO_THROW(cameraOf(*frame));
+    EXPECT_EQ(model(), "plumb_bob");
     frame->cameraParamsIntensity.dist[5] = 0.3;
-    EXPECT_THAT(problemOf([&] { cameraOf(*frame); }), HasSubstr("fisheye or rational"));
+    EXPECT_EQ(model(), "rational");
+    frame->cameraParamsIntensity.setDistortionKannalaBrandt(-4, 0, 0, 0);
+    EXPECT_THAT(problemOf(model), HasSubstr("cannot be undone"));
 }
 
 TEST_F(RawlogTest, framesWithoutDepthOrColorOrOfUnequalSizeAreNamed) {

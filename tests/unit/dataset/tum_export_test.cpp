@@ -38,7 +38,8 @@ class TumExport : public ::testing::Test {
     mrpt::obs::CObservation3DRangeScan::Ptr frame(int i, const std::string& label,
                                                   int size_factor = 1) const {
         CameraSetup setup;
-        setup.camera = Camera{32, 24, 30, 31, 15.5, 11.5, {0.1, -0.2, 0.001, -0.002, 0.05}};
+        setup.camera =
+            Intrinsics{32, 24, 30, 31, 15.5, 11.5, BrownLens{{0.1, -0.2, 0.001, -0.002, 0.05}}};
         setup.depth_units = 1000;
         setup.T_base_sensor.t = {label == "left" ? 1.5 : -1.5, 0, 0.5};
         setup.camera = scaledUp(setup.camera, size_factor);
@@ -50,7 +51,7 @@ class TumExport : public ::testing::Test {
     }
 
     /** The calibration of images so many times as large. */
-    static Camera scaledUp(Camera camera, int factor) {
+    static Intrinsics scaledUp(Intrinsics camera, int factor) {
         camera.width *= factor;
         camera.height *= factor;
         camera.fx *= factor;
@@ -96,7 +97,7 @@ TEST_F(TumExport, framesWithoutTimestampsAreNamedByNumber) {
     const RawlogInfo info = importedAgain();
     EXPECT_EQ(info.rgbd_frames, 5u);
     EXPECT_NEAR(info.last_stamp_s, 0.4, 1e-6);
-    EXPECT_EQ(info.camera.distortion[1], -0.2);
+    EXPECT_EQ(lensCoefficients(info.camera.lens)[1], -0.2);
     EXPECT_EQ(static_cast<float>(info.depth_unit_m), 1 / 1000.f);
     EXPECT_EQ(info.imu, 0u);
 }

@@ -10,7 +10,7 @@ namespace rgbd_graphslam {
 namespace {
 
 Camera smallCamera() {
-    Camera camera;
+    Intrinsics camera;
     camera.width = 4;
     camera.height = 3;
     camera.fx = camera.fy = 2;
@@ -39,15 +39,15 @@ TEST(PointCloud, aPixelBecomesAPointInTheWorld) {
 }
 
 TEST(PointCloud, distortedPixelsLieOnTheirTrueRays) {
-    Camera camera = smallCamera();
+    Intrinsics camera = smallCamera().intrinsics();
     camera.fx = camera.fy = 20;
-    camera.distortion = {0.2, -0.1, 0, 0, 0};
+    camera.lens = BrownLens{{0.2, -0.1, 0, 0, 0}};
     RgbdImage image = emptyImage();
     image.depth.at<std::uint16_t>(0, 3) = 1000;
     PointCloudBuilder builder(camera, {});
     builder.add(image, {});
     const Eigen::Vector3d p = builder.cloud().vertices.at(0).cast<double>();
-    EXPECT_TRUE(camera.distort(camera.project(p)).isApprox(Eigen::Vector2d(3, 0), 1e-4));
+    EXPECT_TRUE(CameraModel(camera).project(p).isApprox(Eigen::Vector2d(3, 0), 1e-4));
 }
 
 TEST(PointCloud, optionsLeaveOutPoints) {

@@ -40,7 +40,7 @@ void addWall(PlyModel& mesh, float x0, float y0, float x1, float y1, float z_m, 
 }
 
 Camera smallCamera() {
-    Camera camera;
+    Intrinsics camera;
     camera.width = 160;
     camera.height = 120;
     camera.fx = camera.fy = 130;

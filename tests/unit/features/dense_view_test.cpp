@@ -39,16 +39,16 @@ TEST(DenseView, depthIsThatOfTheNearerSurface) {
 /** A point seen at a pixel of the full image is seen at the matching place of the small one. */
 TEST(DenseView, cameraSeesTheSameRays) {
     const Camera full;
-    const Camera small = shrunk(full, 8);
+    const Camera small = full.shrunk(8);
     const Eigen::Vector3d ray = full.unproject(323.5, 227.5, 1);  // center of block (40, 28)
     EXPECT_LT((small.project(ray) - Eigen::Vector2d(40, 28)).norm(), 1e-9);
 }
 
 TEST(DenseView, lensDistortionIsTakenOut) {
-    Camera camera;
-    camera.distortion = {0.26, -0.95, 0, 0, 1.16};
+    Intrinsics camera;
+    camera.lens = BrownLens{{0.26, -0.95, 0, 0, 1.16}};
     RgbdImage image = plainImage();
-    const Eigen::Vector2d seen = camera.distort({20 * 8 + 3.5, 45 * 8 + 3.5});
+    const Eigen::Vector2d seen = CameraModel(camera).unrectify({20 * 8 + 3.5, 45 * 8 + 3.5});
     cv::Rect spot(static_cast<int>(seen.x()) - 12, static_cast<int>(seen.y()) - 12, 24, 24);
     image.gray(spot) = 250;
     EXPECT_GT((seen - Eigen::Vector2d(163.5, 363.5)).norm(), 3);
@@ -56,7 +56,7 @@ TEST(DenseView, lensDistortionIsTakenOut) {
 }
 
 TEST(DenseView, smallImagesAreTakenAsTheyAre) {
-    Camera camera;
+    Intrinsics camera;
     camera.width = 32;
     camera.height = 24;
     EXPECT_EQ(DenseViewBuilder(camera).build(plainImage(32, 24)).gray.size(), 32u * 24u);

@@ -15,7 +15,7 @@ Eigen::Vector2d randomPixel(const Camera& camera, RandomInputs& random) {
 TEST(CameraProperties, projectInvertsUnproject) {
     RandomInputs random(1);
     for (int i = 0; i < trials; ++i) {
-        const Camera camera = random.camera();
+        const Camera camera = random.camera().pinhole();
         const Eigen::Vector2d pixel = randomPixel(camera, random);
         const double depth = random.uniform(0.1, 50);
         const Eigen::Vector3d p = camera.unproject(pixel.x(), pixel.y(), depth);
@@ -30,7 +30,7 @@ TEST(CameraProperties, projectInvertsUnproject) {
 TEST(CameraProperties, projectionDoesNotDependOnTheDistance) {
     RandomInputs random(2);
     for (int i = 0; i < trials; ++i) {
-        const Camera camera = random.camera();
+        const Camera camera = random.camera().pinhole();
         const Eigen::Vector2d pixel = randomPixel(camera, random);
         const Eigen::Vector3d p = camera.unproject(pixel.x(), pixel.y(), random.uniform(0.1, 50));
         EXPECT_LT((camera.project(random.uniform(0.1, 10) * p) - pixel).norm(), 1e-9);
@@ -42,7 +42,7 @@ TEST(CameraProperties, distortInvertsUndistortInTheWholeImage) {
     for (int i = 0; i < trials; ++i) {
         const Camera camera = random.camera();
         const Eigen::Vector2d seen = randomPixel(camera, random);
-        EXPECT_LT((camera.distort(camera.undistort(seen)) - seen).norm(), 0.01)
+        EXPECT_LT((camera.unrectify(camera.rectify(seen)) - seen).norm(), 0.01)
             << camera.width << " " << seen.transpose();
     }
 }
@@ -51,13 +51,15 @@ TEST(CameraProperties, whatCanBeUndoneIsUndoneInTheWholeImage) {
     RandomInputs random(7);
     int undone = 0;
     for (int i = 0; i < trials; ++i) {
-        Camera camera = random.camera();
-        for (double& d : camera.distortion) d *= random.uniform(0, 4);
-        if (!camera.undoesDistortion()) continue;
+        Intrinsics intrinsics = random.camera().intrinsics();
+        for (double& k : std::get<BrownLens>(intrinsics.lens).coefficients)
+            k *= random.uniform(0, 4);
+        const Camera camera = intrinsics;
+        if (!camera.isInvertible()) continue;
         ++undone;
         for (int pixel = 0; pixel < 20; ++pixel) {
             const Eigen::Vector2d seen = randomPixel(camera, random);
-            EXPECT_LT((camera.distort(camera.undistort(seen)) - seen).norm(), 1.1);
+            EXPECT_LT((camera.unrectify(camera.rectify(seen)) - seen).norm(), 1.1);
         }
     }
     EXPECT_GT(undone, trials / 4);
@@ -69,26 +71,26 @@ TEST(CameraProperties, lensesThatFoldTheImageOverCannotBeUndone) {
     RandomInputs random(6);
     int folded = 0;
     for (int i = 0; i < trials; ++i) {
-        Camera camera = random.camera();
+        Intrinsics camera = random.camera().intrinsics();
         const double k1 = random.uniform(-4, 0), folds_at = std::sqrt(-1 / (3 * k1));
         const double farthest = folds_at * (1 + k1 * folds_at * folds_at);
-        camera.distortion = {k1, 0, 0, 0, 0};
+        camera.lens = BrownLens{{k1}};
         const Eigen::Vector2d corner(
             std::max(camera.cx, camera.width - 1 - camera.cx) / camera.fx,
             std::max(camera.cy, camera.height - 1 - camera.cy) / camera.fy);
         if (corner.norm() < 1.02 * farthest) continue;
         ++folded;
-        EXPECT_FALSE(camera.undoesDistortion()) << k1;
+        EXPECT_FALSE(CameraModel(camera).isInvertible()) << k1;
     }
     EXPECT_GT(folded, trials / 4);
 }
 
 TEST(CameraProperties, aLensOfNoNumbersCannotBeUndone) {
     for (const double bad : {std::nan(""), double(INFINITY), 1e300}) {
-        for (int k = 0; k < 5; ++k) {
-            Camera camera;
-            camera.distortion[k] = bad;
-            EXPECT_FALSE(camera.undoesDistortion()) << k << " " << bad;
+        for (int k = 0; k < 8; ++k) {
+            Intrinsics camera;
+            std::get<BrownLens>(camera.lens).coefficients[k] = bad;
+            EXPECT_FALSE(CameraModel(camera).isInvertible()) << k << " " << bad;
         }
     }
 }
@@ -98,23 +100,22 @@ TEST(CameraProperties, aPointComesBackThroughTheLens) {
     for (int i = 0; i < trials; ++i) {
         const Camera camera = random.camera();
         const Eigen::Vector2d pixel = randomPixel(camera, random);
-        const Eigen::Vector3d p = camera.unproject(pixel.x(), pixel.y(), random.uniform(0.3, 8));
-        const Eigen::Vector2d seen = camera.distort(camera.project(p));
+        const Camera pinhole = camera.pinhole();
+        const Eigen::Vector3d p = pinhole.unproject(pixel.x(), pixel.y(), random.uniform(0.3, 8));
+        const Eigen::Vector2d seen = camera.project(p);
         if (!camera.contains(seen)) continue;
-        const Eigen::Vector2d back = camera.undistort(seen);
-        EXPECT_LT((camera.unproject(back.x(), back.y(), p.z()) - p).norm(), 1e-4 * p.z());
+        EXPECT_LT((camera.unproject(seen.x(), seen.y(), p.z()) - p).norm(), 1e-4 * p.z());
     }
 }
 
 TEST(CameraProperties, withoutDistortionNothingIsMoved) {
     RandomInputs random(5);
     for (int i = 0; i < trials; ++i) {
-        Camera camera = random.camera();
-        camera.distortion = {};
+        const Camera camera = random.camera().pinhole();
         const Eigen::Vector2d pixel = randomPixel(camera, random);
         EXPECT_FALSE(camera.hasDistortion());
-        EXPECT_LT((camera.distort(pixel) - pixel).norm(), 1e-10);
-        EXPECT_LT((camera.undistort(pixel) - pixel).norm(), 1e-10);
+        EXPECT_LT((camera.unrectify(pixel) - pixel).norm(), 1e-10);
+        EXPECT_LT((camera.rectify(pixel) - pixel).norm(), 1e-10);
     }
 }
 

@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "rgbd_graphslam/geometry/camera.h"
-
 namespace rgbd_graphslam {
 namespace {
 
@@ -37,18 +35,6 @@ TEST(SE3, perturbationJacobianOfAPointIsIdentityAndMinusSkew) {
             (2 * h);
     }
     EXPECT_LT((analytic - numeric).norm(), 1e-8);
-}
-
-TEST(Camera, undistortInvertsDistortOverTheWholeImage) {
-    Camera camera;
-    camera.fx = 517.3, camera.fy = 516.5, camera.cx = 318.6, camera.cy = 255.3;
-    camera.distortion = {0.2624, -0.9531, -0.0054, 0.0026, 1.1633};
-    for (double u = 0; u < camera.width; u += 40) {
-        for (double v = 0; v < camera.height; v += 40) {
-            const Eigen::Vector2d seen(u, v);
-            EXPECT_LT((camera.distort(camera.undistort(seen)) - seen).norm(), 0.01);
-        }
-    }
 }
 
 }  // namespace

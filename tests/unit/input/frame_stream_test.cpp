@@ -1,5 +1,6 @@
 #include "rgbd_graphslam/input/frame_stream.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <mrpt/obs/CObservationOdometry.h>
@@ -50,7 +51,8 @@ class StreamOfARawlog : public testing::TestWithParam<int> {
         writeRawlog(rawlog_, RawlogStorage::Embedded, fill);
     }
     /** Later frames are ready sooner. */
-    static Frame slowAtFirst(const RgbdImage& image) {
+    static Frame slowAtFirst(const std::vector<CameraImage>& images) {
+        const RgbdImage& image = images.front().image;
         const double age_s = image.stamp_s - room_start_s;
         std::this_thread::sleep_for(std::chrono::duration<double>(0.01 / (1 + 30 * age_s)));
         Frame frame;
@@ -92,7 +94,7 @@ TEST_P(StreamOfARawlog, readsAnySource) {
 TEST_P(StreamOfARawlog, readsNoFurtherAheadThanTold) {
     std::atomic<int> prepared{0};
     FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
-    stream.start([&](const RgbdImage& image) {
+    stream.start([&](const std::vector<CameraImage>& image) {
         ++prepared;
         return slowAtFirst(image);
     });
@@ -111,7 +113,7 @@ TEST_P(StreamOfARawlog, preparesNothingOnceStopped) {
     std::atomic<bool> stopped{false};
     std::atomic<int> too_late{0};
     FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
-    stream.start([&](const RgbdImage& image) {
+    stream.start([&](const std::vector<CameraImage>& image) {
         Frame frame = slowAtFirst(image);
         if (stopped) ++too_late;
         return frame;
@@ -158,6 +160,92 @@ TEST_P(StreamOfARawlog, rawlogWithoutFramesIsRefused) {
         writer.write(imu);
     });
     EXPECT_THROW(FrameStream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3}), Error);
+}
+
+/** Two cameras, the second `late_s` after the first, on the right of it. */
+void writeTwoCameras(RawlogWriter& writer, double late_s, double apart_m) {
+    for (const auto& frame : filmRoundTrip(frames, 0.02)) {
+        frame->sensorLabel = "LEFT";
+        writer.write(*frame);
+        mrpt::obs::CObservationIMU imu;
+        writer.write(imu);
+        frame->sensorLabel = "RIGHT";
+        frame->sensorPose = frame->sensorPose + mrpt::poses::CPose3D(0, -apart_m, 0, 0, 0, 0);
+        frame->timestamp = toMrptTime(toSeconds(frame->timestamp) + late_s);
+        writer.write(*frame);
+    }
+}
+
+TEST_P(StreamOfARawlog, whatTwoCamerasTakeAtOneMomentIsOneFrame) {
+    write([](RawlogWriter& writer) { writeTwoCameras(writer, 0.001, 0.2); });
+    FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
+    ASSERT_EQ(stream.rig().cameras.size(), 2u);
+    EXPECT_EQ(stream.rig().cameras[1].label, "RIGHT");
+    const SE3 T = stream.rig().cameras[0].T_body_cam.inverse() * stream.rig().cameras[1].T_body_cam;
+    EXPECT_LT((T.t - Eigen::Vector3d(0.2, 0, 0)).norm(), 1e-9);
+    std::atomic<int> images_seen{0};
+    stream.start([&](const std::vector<CameraImage>& images) {
+        images_seen += static_cast<int>(images.size());
+        return slowAtFirst(images);
+    });
+    std::size_t between = 0;
+    for (int i = 0; i < frames; ++i) {
+        const auto frame = stream.next();
+        ASSERT_TRUE(frame);
+        EXPECT_EQ(frame->index, static_cast<std::size_t>(i));
+        EXPECT_EQ(frame->camera, 0);
+        ASSERT_EQ(frame->others.size(), 1u) << i;
+        EXPECT_EQ(frame->others[0].first, 1);
+        between += frame->before.size();
+    }
+    EXPECT_FALSE(stream.next());
+    EXPECT_EQ(images_seen, 2 * frames) << "every observation is looked at";
+    EXPECT_EQ(between, static_cast<std::size_t>(frames)) << "and nothing between is lost";
+}
+
+TEST_P(StreamOfARawlog, whatTwoCamerasTakeAtDifferentMomentsAreTwoFrames) {
+    write([](RawlogWriter& writer) { writeTwoCameras(writer, 0.015, 0.2); });
+    FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
+    stream.start(slowAtFirst);
+    for (int i = 0; i < 2 * frames; ++i) {
+        const auto frame = stream.next();
+        ASSERT_TRUE(frame);
+        EXPECT_EQ(frame->camera, i % 2);
+        EXPECT_TRUE(frame->others.empty());
+    }
+    EXPECT_FALSE(stream.next());
+}
+
+TEST_P(StreamOfARawlog, oneOfTwoCamerasCanBeChosen) {
+    write([](RawlogWriter& writer) { writeTwoCameras(writer, 0.001, 0.2); });
+    FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3}, "RIGHT");
+    ASSERT_EQ(stream.rig().cameras.size(), 1u);
+    EXPECT_EQ(stream.firstFrame().sensorLabel, "RIGHT");
+    stream.start(slowAtFirst);
+    int count = 0;
+    while (const auto frame = stream.next()) count += frame->others.empty();
+    EXPECT_EQ(count, frames);
+}
+
+TEST_P(StreamOfARawlog, camerasInTheSamePlaceAreNoRig) {
+    write([](RawlogWriter& writer) { writeTwoCameras(writer, 0.001, 0); });
+    ::testing::internal::CaptureStderr();
+    FrameStream stream(std::make_unique<RawlogSource>(rawlog_), {GetParam(), 3});
+    EXPECT_THAT(::testing::internal::GetCapturedStderr(),
+                ::testing::HasSubstr("'LEFT' and 'RIGHT' have the same pose"));
+    EXPECT_EQ(stream.rig().cameras.size(), 1u);
+    stream.start(slowAtFirst);
+    std::size_t count = 0, between = 0;
+    while (const auto frame = stream.next()) {
+        EXPECT_EQ(frame->index, count++);
+        EXPECT_EQ(frame->observation->sensorLabel, "LEFT");
+        between += frame->before.size();
+    }
+    EXPECT_EQ(count, static_cast<std::size_t>(frames));
+    EXPECT_EQ(between, static_cast<std::size_t>(frames - 1)) << "before the frames";
+    for (const SensorRecord& sensor : stream.sensors()) {
+        EXPECT_EQ(sensor.used, sensor.label != "RIGHT") << sensor.label;
+    }
 }
 
 /** Wheels and gyroscope on their way round, at other moments than the frames. */

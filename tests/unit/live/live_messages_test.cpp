@@ -76,7 +76,7 @@ TEST(LiveMessages, smallImagesKeepEveryPixel) {
     putImages(smoothImage(160, 120), frame);
     EXPECT_EQ(frame.step, 1);
     EXPECT_EQ(frame.depth.size(), cv::Size(160, 120));
-    EXPECT_EQ(imageCamera(frame).fx, Camera().fx);
+    EXPECT_EQ(imageCamera(frame).pixelsPerRadian(), Camera().pixelsPerRadian());
 }
 
 TEST(LiveMessages, keyframesForTheMapHaveFewerPixelsThanPictures) {

@@ -90,7 +90,7 @@ class Noise {
 };
 
 inline Camera smallCamera() {
-    Camera camera;
+    Intrinsics camera;
     camera.width = 320, camera.height = 240;
     camera.fx = camera.fy = 262.5, camera.cx = 159.5, camera.cy = 119.5;
     return camera;
@@ -106,11 +106,7 @@ inline RgbdImage render(const BoxRoom& room, const Camera& camera, const SE3& T_
     image.color = cv::Mat(camera.height, camera.width, CV_8UC3);
     for (int v = 0; v < camera.height; ++v) {
         for (int u = 0; u < camera.width; ++u) {
-            const Eigen::Vector2d pixel = camera.hasDistortion()
-                                              ? camera.undistort(Eigen::Vector2d(u, v))
-                                              : Eigen::Vector2d(u, v);
-            const auto hit =
-                room.cast(T_world_cam.t, T_world_cam.R * camera.unproject(pixel.x(), pixel.y(), 1));
+            const auto hit = room.cast(T_world_cam.t, T_world_cam.R * camera.unproject(u, v, 1));
             const double z =
                 hit.distance + (noise ? DepthNoise().sigma(hit.distance) * (*noise)() : 0);
             image.depth.at<std::uint16_t>(v, u) =

@@ -188,8 +188,8 @@ TEST(DenseMapper, pointsHaveTheColorsOfTheirSurfaces) {
 }
 
 TEST(DenseMapper, lensDistortionIsUndone) {
-    Camera camera = smallCamera();
-    camera.distortion = {0.2624, -0.9531, -0.0054, 0.0026, 1.1633};
+    Intrinsics camera = smallCamera().intrinsics();
+    camera.lens = BrownLens{{0.2624, -0.9531, -0.0054, 0.0026, 1.1633}};
     const Mapped map(false, MapOptions(), camera);
     EXPECT_LT(quantile(pointErrors(map), 0.95), 0.002);
     EXPECT_GT(leafShares(map).surface_occupied, 0.97);

@@ -180,7 +180,7 @@ TEST(Mesh, ofAPlaneIsFlatAndFacesTheCamera) {
     }
     for (const Eigen::Vector3f& vertex : mesh.vertices)
         ASSERT_NEAR(vertex.x(), wall_m, 0.02 * voxel_m);
-    const Camera camera = smallCamera();
+    const Intrinsics camera = smallCamera().intrinsics();
     const double seen_m2 = camera.width / camera.fx * wall_m * camera.height / camera.fy * wall_m;
     EXPECT_NEAR(area, seen_m2, 0.05 * seen_m2);
 }
@@ -319,8 +319,8 @@ TEST(MeshOfRoom, isTheSameEachRun) {
 }
 
 TEST(MeshOfRoom, lensDistortionIsUndone) {
-    Camera camera = smallCamera();
-    camera.distortion = {0.2624, -0.9531, -0.0054, 0.0026, 1.1633};
+    Intrinsics camera = smallCamera().intrinsics();
+    camera.lens = BrownLens{{0.2624, -0.9531, -0.0054, 0.0026, 1.1633}};
     const BoxRoom room;
     DenseMapper mapper(withMesh(), camera);
     for (const SE3& T : walk(24)) mapper.insert(T, render(room, camera, T));

@@ -49,7 +49,7 @@ class FreeByDefinition {
             R_cam_world_.cwiseAbs().rowwise().sum() * static_cast<float>(0.5 * voxel_m);
         const Eigen::Vector3f low = c - cube.size * reach, high = c + cube.size * reach;
         if (low.z() < 0.05f || high.z() > static_cast<float>(view_.max_range_m)) return false;
-        const Camera& camera = view_.rays.camera();
+        const Intrinsics camera = view_.rays.camera().intrinsics();
         const auto [u0, u1] = span(low.x(), high.x(), low.z(), high.z(), camera.fx, camera.cx);
         const auto [v0, v1] = span(low.y(), high.y(), low.z(), high.z(), camera.fy, camera.cy);
         const cv::Rect whole(cv::Point(u0, v0), cv::Point(u1 + 1, v1 + 1));
@@ -104,7 +104,7 @@ bool isHit(const VoxelIndex& v, int readings, const SE3& T_world_cam, const Came
     const Eigen::Vector3d center =
         voxel_m * (Eigen::Vector3d(v.x, v.y, v.z) + Eigen::Vector3d::Constant(0.5));
     const double z = std::max(voxel_m, (T_world_cam.inverse() * center).z());
-    const double pixels = camera.fx * camera.fy * voxel_m * voxel_m / (z * z);
+    const double pixels = camera.pixelsPerSteradian() * voxel_m * voxel_m / (z * z);
     return readings >= hit_share * pixels / 4;
 }
 

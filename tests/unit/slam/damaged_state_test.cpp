@@ -41,7 +41,7 @@ void loadMap(const Write& write) {
     bytes += bytesOf(write);
     ByteReader in(bytes);
     SlamMap map(1.25, 6);
-    map.load(in, Camera{});
+    map.load(in, RigCameras(Camera{}));
     EXPECT_EQ(in.left(), 0u);
 }
 
@@ -126,7 +126,7 @@ TEST(DamagedState, placesAreSweptWhereThereAreNodes) {
 TEST(DamagedState, smallImagesAreOfTheCamera) {
     const std::string bytes = bytesOf([](ByteWriter& out) {
         putFlag(false, out);
-        put(Camera{2, 1, 1, 1, 0, 0, {}}, out);
+        put(Intrinsics{2, 1, 1, 1, 0, 0, {}}, out);
         for (int image = 0; image < 2; ++image) {
             out.putCount(2);
             for (int pixel = 0; pixel < 2; ++pixel) out.put(1.0f);
@@ -137,14 +137,14 @@ TEST(DamagedState, smallImagesAreOfTheCamera) {
     });
     DenseOdometry tracker;
     ByteReader good(bytes), bad(bytes);
-    EXPECT_NO_THROW(tracker.load(good, Camera{2, 1, 1, 1, 0, 0, {}}));
+    EXPECT_NO_THROW(tracker.load(good, Intrinsics{2, 1, 1, 1, 0, 0, {}}));
     EXPECT_EQ(good.left(), 0u);
-    EXPECT_THROW(tracker.load(bad, Camera{80, 60, 1, 1, 0, 0, {}}), DamagedBytes);
+    EXPECT_THROW(tracker.load(bad, Intrinsics{80, 60, 1, 1, 0, 0, {}}), DamagedBytes);
 }
 
 TEST(DamagedState, adjustmentsEndAndAreOfSomething) {
     const SlamOptions options;
-    const Camera camera;
+    const RigCameras cameras{Camera()};
     SlamMap map = smallMap();
     const auto load = [&](std::uint32_t iterations, std::size_t free) {
         const std::string bytes = bytesOf([&](ByteWriter& out) {
@@ -157,7 +157,7 @@ TEST(DamagedState, adjustmentsEndAndAreOfSomething) {
             out.putCount(free);
             encodePose(SE3(), out);
         });
-        GlobalBundleAdjuster adjuster(options, camera, map);
+        GlobalBundleAdjuster adjuster(options, cameras, map);
         ByteReader in(bytes);
         adjuster.load(in);
         adjuster.applyPendingAdjustment();

@@ -56,7 +56,7 @@ TEST(DenseAlignment, noiseOfSomethingFlatHoldsNothing) {
     std::mt19937_64 random(1);
     const auto flat = [&] {
         DenseView view;
-        view.camera = shrunk(Camera{}, 8);
+        view.camera = Camera().shrunk(8);
         for (int i = 0; i < view.camera.width * view.camera.height; ++i) {
             view.gray.push_back(110);
             view.depth_m.push_back(1 + 0.004f * (random() % 1001 / 500.f - 1));

@@ -12,7 +12,7 @@ class DenseRoom {
   public:
     DenseView view(const SE3& T_room_cam) const {
         DenseView view;
-        view.camera = shrunk(Camera{}, 8);
+        view.camera = Camera().shrunk(8);
         for (int v = 0; v < view.camera.height; ++v) {
             for (int u = 0; u < view.camera.width; ++u) {
                 const Eigen::Vector3d ray = T_room_cam.R * view.camera.unproject(u, v, 1);

@@ -4,6 +4,7 @@
 #include <utility>
 #include <vector>
 
+#include "rgbd_graphslam/slam/rig_cameras.h"
 #include "rgbd_graphslam/slam/slam_map.h"
 
 namespace rgbd_graphslam {
@@ -62,6 +63,7 @@ class ExactMap {
     const std::vector<Eigen::Vector3d>& points() const { return points_; }
 
     const Camera camera;
+    const RigCameras cameras{camera};
     SlamMap map{1.2, 8};
 
   private:

@@ -56,9 +56,10 @@ class FullAdjustment : public testing::Test {
 
     const SlamOptions options_;
     const Camera camera_;
+    const RigCameras cameras_{camera_};
     std::vector<Eigen::Vector3d> truth_;
     SlamMap map_{1.2, 8};
-    GlobalBundleAdjuster adjuster_{options_, camera_, map_};
+    GlobalBundleAdjuster adjuster_{options_, cameras_, map_};
 };
 
 TEST_F(FullAdjustment, bringsEveryPoseToItsPlace) {
@@ -104,7 +105,7 @@ TEST_F(FullAdjustment, goesOnWhereItWasSaved) {
     ByteWriter out;
     adjuster_.save(out);
     SlamMap copy = map_;
-    GlobalBundleAdjuster other(options_, camera_, copy);
+    GlobalBundleAdjuster other(options_, cameras_, copy);
     ByteReader in(out.bytes());
     other.load(in);
     ASSERT_TRUE(other.pending());

@@ -25,7 +25,7 @@ class KeyframeEdgesTest : public testing::Test {
 
     const SensorOptions sensor_;
     ExactMap exact_;
-    const KeyframeEdges edges_{sensor_, exact_.camera, exact_.map};
+    const KeyframeEdges edges_{sensor_, exact_.cameras, exact_.map};
 };
 
 TEST_F(KeyframeEdgesTest, measureTheMotionBetweenKeyframes) {

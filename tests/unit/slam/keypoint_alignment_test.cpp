@@ -31,7 +31,7 @@ Frame wallFrame(const Camera& camera, double moved_px, double wrong_px) {
     Frame frame;
     for (int i = 0; i < columns * rows; ++i) {
         const double u = 60 + 70 * (i % columns), v = 60 + 70 * (i / columns);
-        const Eigen::Vector2d said = camera.undistort({u + moved_px + wrong_px, v});
+        const Eigen::Vector2d said = camera.rectify({u + moved_px + wrong_px, v});
         Keypoint k;
         k.u = static_cast<float>(said.x());
         k.v = static_cast<float>(said.y());
@@ -48,7 +48,7 @@ SlamMap mapOf(const Frame& frame, const Camera& camera) {
     map.addKeyframe(frame, SE3());
     for (int i = 0; i < columns * rows; ++i) {
         const Keypoint& k = frame.keypoints[i];
-        map.addLandmark(camera.unproject(k.u, k.v, k.depth_m), 0, i);
+        map.addLandmark(camera.rectified().unproject(k.u, k.v, k.depth_m), 0, i);
     }
     return map;
 }
@@ -63,7 +63,8 @@ std::vector<int> allLandmarks() {
 double worstErrorAfterAlignment(const Camera& camera) {
     const Frame exact = wallFrame(camera, 3, 0);
     Frame frame = wallFrame(camera, 3, 0.7);
-    alignKeypoints(frame, allLandmarks(), SE3(), camera, mapOf(wallFrame(camera, 0, 0), camera));
+    alignKeypoints(frame, allLandmarks(), SE3(), RigCameras(camera),
+                   mapOf(wallFrame(camera, 0, 0), camera));
     double worst = 0;
     for (int i = 0; i < columns * rows; ++i) {
         EXPECT_TRUE(frame.keypoints[i].aligned) << "keypoint " << i;
@@ -79,7 +80,7 @@ TEST(KeypointAlignment, takesKeypointsToTheirLandmarks) {
 
 /** The camera turns about its axis: what its pixels show follows from the poses alone. */
 TEST(KeypointAlignment, heedsTheRollOfTheCamera) {
-    Camera camera;
+    Intrinsics camera;
     camera.cx = 320;
     camera.cy = 240;
     Frame first;
@@ -101,7 +102,7 @@ TEST(KeypointAlignment, heedsTheRollOfTheCamera) {
                     static_cast<std::uint8_t>(std::lround(waves(p.x(), p.y())));
             }
         }
-        alignKeypoints(frame, {0}, T_cam_world, camera, map);
+        alignKeypoints(frame, {0}, T_cam_world, RigCameras(camera), map);
         EXPECT_TRUE(frame.keypoints[0].aligned) << "roll " << roll;
         EXPECT_NEAR(frame.keypoints[0].u, 320, 0.1) << "roll " << roll;
         EXPECT_NEAR(frame.keypoints[0].v, 240, 0.1) << "roll " << roll;
@@ -109,8 +110,8 @@ TEST(KeypointAlignment, heedsTheRollOfTheCamera) {
 }
 
 TEST(KeypointAlignment, heedsTheLens) {
-    Camera camera;
-    camera.distortion = {0.2624, -0.9531, -0.0054, 0.0026, 1.1633};
+    Intrinsics camera;
+    camera.lens = BrownLens{{0.2624, -0.9531, -0.0054, 0.0026, 1.1633}};
     EXPECT_LT(worstErrorAfterAlignment(camera), 0.1);
 }
 
@@ -118,9 +119,9 @@ TEST(KeypointAlignment, againChangesNothingMore) {
     const Camera camera;
     const SlamMap map = mapOf(wallFrame(camera, 0, 0), camera);
     Frame once = wallFrame(camera, 3, 0.7);
-    alignKeypoints(once, allLandmarks(), SE3(), camera, map);
+    alignKeypoints(once, allLandmarks(), SE3(), RigCameras(camera), map);
     Frame twice = once;
-    alignKeypoints(twice, allLandmarks(), SE3(), camera, map);
+    alignKeypoints(twice, allLandmarks(), SE3(), RigCameras(camera), map);
     for (int i = 0; i < columns * rows; ++i) {
         EXPECT_NEAR(twice.keypoints[i].u, once.keypoints[i].u, 0.02) << "keypoint " << i;
         EXPECT_TRUE(twice.keypoints[i].aligned);
@@ -132,11 +133,12 @@ TEST(KeypointAlignment, leavesWhatShowsNoLandmarkOrHasNoPatch) {
     const SlamMap map = mapOf(wallFrame(camera, 0, 0), camera);
     Frame frame = wallFrame(camera, 3, 0.7);
     const std::vector<Keypoint> before = frame.keypoints;
-    alignKeypoints(frame, std::vector<int>(before.size(), no_landmark), SE3(), camera, map);
+    alignKeypoints(frame, std::vector<int>(before.size(), no_landmark), SE3(), RigCameras(camera),
+                   map);
     EXPECT_EQ(frame.keypoints[5].u, before[5].u);
     EXPECT_FALSE(frame.keypoints[5].aligned);
     frame.patches.clear();
-    alignKeypoints(frame, allLandmarks(), SE3(), camera, map);
+    alignKeypoints(frame, allLandmarks(), SE3(), RigCameras(camera), map);
     EXPECT_EQ(frame.keypoints[5].u, before[5].u);
 }
 

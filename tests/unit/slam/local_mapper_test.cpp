@@ -24,7 +24,7 @@ class LocalMapperTest : public testing::Test {
 
     const SlamOptions options_;
     ExactMap exact_;
-    LocalMapper mapper_{options_, exact_.camera, exact_.map};
+    LocalMapper mapper_{options_, exact_.cameras, exact_.map};
 };
 
 TEST_F(LocalMapperTest, theFirstKeyframeMakesLandmarksOfItsDepth) {
@@ -84,7 +84,7 @@ TEST_F(LocalMapperTest, besideAFixedMapOnlyTheLatestKeyframesStay) {
     options.mapper.localization_keyframes = 2;
     exact_.add(0);
     exact_.map.freeze();
-    LocalMapper mapper(options, exact_.camera, exact_.map);
+    LocalMapper mapper(options, exact_.cameras, exact_.map);
     for (int k = 1; k < 6; ++k) {
         const int id = exact_.map.addKeyframe(exact_.view(ExactMap::truth(k)), ExactMap::truth(k));
         exact_.map.addObservations(exact_.allLandmarks(), id);

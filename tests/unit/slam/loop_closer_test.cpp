@@ -35,10 +35,11 @@ class LoopCloserTest : public testing::Test {
     const Eigen::Vector3d drift_{0, 0.005, 0};
     SlamOptions options_;
     const Camera camera_;
+    const RigCameras cameras_{camera_};
     SyntheticWorld world_;
     SlamMap map_{1.2, 8};
-    LocalMapper mapper_{options_, camera_, map_};
-    LoopCloser closer_{options_, camera_, map_};
+    LocalMapper mapper_{options_, cameras_, map_};
+    LoopCloser closer_{options_, cameras_, map_};
     std::vector<PoseEdge> found_;
 };
 

@@ -18,7 +18,7 @@ class MapAdjustmentTest : public testing::Test {
         exact_.add(1, a_little_off * ExactMap::truth(1));
     }
     MapAdjustment adjustment() const {
-        return {exact_.map, exact_.camera, options_.sensor,
+        return {exact_.map, exact_.cameras, options_.sensor,
                 {1},        {0},           landmarksSeenBy({0, 1}, exact_.map)};
     }
     double poseError(int keyframe) const {

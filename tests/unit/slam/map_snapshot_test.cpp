@@ -71,7 +71,7 @@ TEST(MapSnapshot, leavesDeadLandmarksBehind) {
     map.removeLandmark(0);
     map.cull(2, 1);
     map.cull(1, 0);
-    const MapSnapshot kept = decoded(encoded(takeSnapshot(map, Camera{}, 1.25, {})));
+    const MapSnapshot kept = decoded(encoded(takeSnapshot(map, rigOf(Camera{}), 1.25, {})));
     ASSERT_EQ(kept.landmarks.size(), 1u);
     EXPECT_EQ(kept.landmarks[0].position.z(), 2);
     EXPECT_EQ(kept.keyframes[0].landmarks, (std::vector<int>{no_landmark, 0, no_landmark}));
@@ -129,7 +129,7 @@ TEST(MapSnapshot, refusesWhatCannotBe) {
     refused([](MapSnapshot& m) { m.keyframes[0].frame.keypoints[0].octave = 200; });
     refused([](MapSnapshot& m) { m.keyframes[0].frame.keypoints[0].u = 1e30f; });
     refused([](MapSnapshot& m) { m.keyframes[0].T_cam_world.R *= 2; });
-    refused([](MapSnapshot& m) { m.camera.width = 0; });
+    refused([](MapSnapshot& m) { m.rig.cameras[0].model.width = 0; });
     refused([](MapSnapshot& m) { m.levels = 0; });
     refused([](MapSnapshot& m) { m.loops.push_back({0, 0, {}, Matrix6d::Identity()}); });
     refused([](MapSnapshot& m) { m.loops.push_back({0, 1, {}, Matrix6d::Zero()}); });

@@ -41,14 +41,15 @@ Scene makeScene(SyntheticWorld& random) {
 TEST(RansacAlignment, findsTheMotionAmongTwoThirdsWrongPairs) {
     SyntheticWorld random(1, 3);
     const Scene scene = makeScene(random);
-    const auto aligned = alignRobustly(scene.camera, scene.matches, scene.points_cam, 500, 1);
+    const auto aligned =
+        alignRobustly(RigCameras(scene.camera), scene.matches, scene.points_cam, 500, 1);
     ASSERT_TRUE(aligned);
     EXPECT_LT(aligned->T_cam_world.minus(scene.T_cam_world).norm(), 0.15);
     EXPECT_GT(aligned->inliers, 25);
 }
 
 TEST(RansacAlignment, isSilentWithTooFewPairs) {
-    EXPECT_FALSE(alignRobustly(Camera{}, {}, {}, 100, 1));
+    EXPECT_FALSE(alignRobustly(RigCameras(Camera{}), {}, {}, 100, 1));
 }
 
 }  // namespace

@@ -41,9 +41,7 @@ std::vector<RowObservation> filmed(double readout_s, double noise_px, unsigned s
             o.landmark = l;
             o.row = projected(l, t).y() / camera.height - 0.5;
             o.velocity_px_s = (projected(l, t + 1e-3) - projected(l, t - 1e-3)) / 2e-3;
-            Eigen::Matrix<double, 2, 3> J;
-            J << camera.fx / p.z(), 0, -camera.fx * p.x() / (p.z() * p.z()),  //
-                0, camera.fy / p.z(), -camera.fy * p.y() / (p.z() * p.z());
+            const Matrix23d J = camera.projectionJacobian(p);
             o.by_pose << J, -J * skew(p);
             o.by_landmark = J * R;
             o.residual_px =

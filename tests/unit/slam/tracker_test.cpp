@@ -22,7 +22,7 @@ class TrackerTest : public testing::Test {
 
     const SlamOptions options_;
     ExactMap exact_;
-    Tracker tracker_{options_, exact_.camera, exact_.map};
+    Tracker tracker_{options_, exact_.cameras, exact_.map};
 };
 
 TEST_F(TrackerTest, findsThePoseOfTheNextFrame) {
@@ -41,7 +41,7 @@ TEST_F(TrackerTest, findsNothingWhereTheMapIsNotSeen) {
 TEST_F(TrackerTest, asksForTheMinimumOfInliers) {
     SlamOptions options;
     options.tracker.min_inliers = static_cast<int>(exact_.points().size()) + 1;
-    Tracker strict(options, exact_.camera, exact_.map);
+    Tracker strict(options, exact_.cameras, exact_.map);
     strict.setLast(exact_.view(ExactMap::truth(0)), {ExactMap::truth(0), exact_.allLandmarks()}, 0,
                    true);
     Frame frame = exact_.view(ExactMap::truth(1), 1);

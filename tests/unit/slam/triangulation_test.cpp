@@ -13,17 +13,18 @@ const SE3 T_b_world(rotationExp({0, 0.05, 0}), {-0.2, 0, 0});
 TEST(Triangulate, findsThePointThatBothSee) {
     const Camera camera;
     const Eigen::Vector3d point(0.3, -0.2, 2.5);
-    const auto found = triangulate(camera, T_a_world, T_b_world, camera.project(T_a_world * point),
-                                   camera.project(T_b_world * point));
+    const auto found =
+        triangulate(camera, camera, T_a_world, T_b_world, camera.project(T_a_world * point),
+                    camera.project(T_b_world * point));
     ASSERT_TRUE(found);
     EXPECT_LT((*found - point).norm(), 1e-9);
 }
 
 TEST(Triangulate, refusesParallelRaysAndPointsBehind) {
     const Camera camera;
-    EXPECT_FALSE(triangulate(camera, T_a_world, T_b_world, {320, 240}, {346.2, 240}))
+    EXPECT_FALSE(triangulate(camera, camera, T_a_world, T_b_world, {320, 240}, {346.2, 240}))
         << "a point at infinity";
-    EXPECT_FALSE(triangulate(camera, T_a_world, T_b_world, {320, 240}, {500, 240}))
+    EXPECT_FALSE(triangulate(camera, camera, T_a_world, T_b_world, {320, 240}, {500, 240}))
         << "rays that part in front of the cameras";
 }
 
@@ -39,7 +40,7 @@ TEST(TriangulateBetween, placesKeypointsWithoutDepth) {
         for (Keypoint& k : frame.keypoints) k.depth_m = 0;
         map.addKeyframe(std::move(frame), T_cam_world);
     }
-    const auto points = triangulateBetween(camera, map, options, 0, 1);
+    const auto points = triangulateBetween(RigCameras(camera), map, options, 0, 1);
     ASSERT_GT(points.size(), 100u);
     int near_truth = 0;
     for (const TriangulatedPoint& p : points) {

@@ -98,7 +98,7 @@ TEST(VisualSlam, pointsWithoutDepthBecomeLandmarksWhereTheyAre) {
         Frame frame = world.view({Eigen::Matrix3d::Identity(), {0.03 * i, 0, 0}}, 0, camera);
         frame.stamp_s = 0.033 * (i + 1);
         for (Keypoint& k : frame.keypoints) {
-            if (k.v < camera.cy) k.depth_m = 0;
+            if (camera.toPlane({k.u, k.v}).y() < 0) k.depth_m = 0;
         }
         ASSERT_EQ(slam.track(std::move(frame)).origin, FrameOrigin::Tracked) << i;
     }
@@ -397,9 +397,11 @@ TEST(VisualSlam, keepsFewOfItsOwnKeyframesWhereItLocalizes) {
 
 TEST(VisualSlam, localizesWithAnotherCamera) {
     MappedWorld mapped;
-    mapped.camera.fx *= 1.1;
-    mapped.camera.fy *= 1.1;
-    mapped.camera.cx += 5;
+    Intrinsics other = mapped.camera.intrinsics();
+    other.fx *= 1.1;
+    other.fy *= 1.1;
+    other.cx += 5;
+    mapped.camera = other;
     VisualSlam slam(SlamOptions{}, mapped.camera, mapped.map, MapUse::Localize);
     const auto frames = localizedOnTheCircle(mapped, 40, slam);
     for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -445,7 +447,7 @@ TEST(VisualSlam, refusesMapsThatDoNotFit) {
     SlamOptions other;
     other.features.levels = 5;
     EXPECT_THROW(VisualSlam(other, mapped.camera, mapped.map, MapUse::Localize), Error);
-    Camera zoomed = mapped.camera;
+    Intrinsics zoomed = mapped.camera.intrinsics();
     zoomed.fx *= 1.1;
     EXPECT_THROW(VisualSlam(SlamOptions{}, zoomed, mapped.map, MapUse::Extend), Error);
     EXPECT_NO_THROW(VisualSlam(SlamOptions{}, zoomed, mapped.map, MapUse::Localize));

@@ -35,7 +35,7 @@ TEST_P(WallNoise, FollowsTheModel) {
 INSTANTIATE_TEST_SUITE_P(Distances, WallNoise, testing::Values(0.7, 1.0, 1.5, 2.0, 3.0, 3.9));
 
 TEST(DepthSensor, DisparitiesAreQuantized) {
-    const Camera camera = {320, 240, 262.5, 262.5, 159.5, 119.5, {}};
+    const Camera camera = Intrinsics{320, 240, 262.5, 262.5, 159.5, 119.5, {}};
     const cv::Mat wall(240, 320, CV_32FC1, cv::Scalar(3.0));
     const cv::Mat readings = senseDepth(wall, camera, DepthSensorModel{}, Random(1));
     for (int u = 10; u < 300; ++u) {
@@ -56,10 +56,11 @@ TEST(DepthSensor, GivesNothingTooNearTooFarOrTooFlat) {
     // A floor 0.3 m below the camera is seen at 0.3 / z: too flat from 1.76 m on.
     const Camera camera;
     cv::Mat floor(camera.height, camera.width, CV_32FC1, cv::Scalar(0));
-    for (int v = 300; v < camera.height; ++v) floor.row(v).setTo(0.3 * camera.fy / (v - camera.cy));
+    const Intrinsics in = camera.intrinsics();
+    for (int v = 300; v < camera.height; ++v) floor.row(v).setTo(0.3 * in.fy / (v - in.cy));
     const cv::Mat readings = senseDepth(floor, camera, DepthSensorModel{}, Random(1));
-    const int flat_row = static_cast<int>(camera.cy + 0.3 * camera.fy / 2.2);
-    const int steep_row = static_cast<int>(camera.cy + 0.3 * camera.fy / 1.0);
+    const int flat_row = static_cast<int>(in.cy + 0.3 * in.fy / 2.2);
+    const int steep_row = static_cast<int>(in.cy + 0.3 * in.fy / 1.0);
     EXPECT_EQ(cv::countNonZero(readings.row(flat_row)), 0);
     EXPECT_GT(cv::countNonZero(readings.row(steep_row)), 600);
 }
@@ -69,7 +70,8 @@ TEST(DepthSensor, ShadowOfTheProjectorLiesLeftOfTheNearerThing) {
     cv::Mat depth(camera.height, camera.width, CV_32FC1, cv::Scalar(3.0));
     depth.colRange(300, 400).setTo(1.0);
     const cv::Mat readings = senseDepth(depth, camera, DepthSensorModel{}, Random(2));
-    const int shadow = static_cast<int>(0.075 * camera.fx * (1.0 / 1 - 1.0 / 3));  // 26 pixels
+    const int shadow =
+        static_cast<int>(0.075 * camera.pixelsPerRadian().x() * (1.0 / 1 - 1.0 / 3));  // 26 pixels
     EXPECT_LT(cv::countNonZero(readings.colRange(303 - shadow, 297)), 200);
     EXPECT_GT(cv::countNonZero(readings.colRange(403, 403 + shadow)), 0.95 * shadow * 479);
 }

@@ -24,7 +24,7 @@ TEST(KeyframePoints, areNeverTooMany) {
     for (const cv::Size size : {cv::Size(64, 48), cv::Size(333, 251), cv::Size(1920, 1080)}) {
         const cv::Mat3b color(size, cv::Vec3b());
         const cv::Mat1w depth(size, static_cast<std::uint16_t>(1000));
-        Camera camera;
+        Intrinsics camera;
         camera.width = size.width, camera.height = size.height;
         EXPECT_LE(keyframePoints(color, depth, 0.001, camera).size(), points_a_keyframe);
     }

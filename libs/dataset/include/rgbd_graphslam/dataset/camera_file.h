@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "rgbd_graphslam/geometry/camera.h"
+#include "rgbd_graphslam/geometry/camera_model.h"
 #include "rgbd_graphslam/geometry/se3.h"
 
 namespace rgbd_graphslam {
@@ -13,7 +13,7 @@ namespace rgbd_graphslam {
 struct CameraSetup {
     /** "fr1", "fr2", "fr3", "ros" or the file it came from. */
     std::string name = "ros";
-    Camera camera;
+    Intrinsics camera;
     /** Depth of one unit is depth_scale / depth_units meters. */
     double depth_units = 5000;
     /** Nobody stated depth_units: it is the default. */
@@ -45,21 +45,21 @@ std::optional<CameraSetup> cameraByFolderName(const std::string& folder);
 /** What is hardly right in a calibration: a principal point more than a quarter of the image away
  *  from its center or even outside, a field of view of less than 15 or more than 150 degrees. A
  * line each; empty when the camera is plausible. */
-std::vector<std::string> doubtsOf(const Camera& camera);
+std::vector<std::string> doubtsOf(const Intrinsics& camera);
 
 /** The same camera for images of another size, where these are `factor` times as large or small as
  *  the calibration says, in both directions.
  *  \return nothing unless the factor is 1, or 2 to 8 or one half to one eighth */
-std::optional<Camera> resizedTo(const Camera& camera, int width, int height);
+std::optional<Intrinsics> resizedTo(const Intrinsics& camera, int width, int height);
 
 /** Reads section `[CAMERA_PARAMS]` as `mrpt::img::TCamera::loadFromConfigFile` does: resolution,
  *  fx, fy, cx, cy (px), distortion_model, dist. `dist` without `distortion_model` counts as
- *  plumb_bob (MRPT would ignore it silently) and may be [k1 k2 p1 p2]. Further keys, all optional:
+ *  plumb_bob (MRPT would ignore it silently) and may be [k1 k2 p1 p2]; eight coefficients are the
+ *  rational model, [k1 k2 k3 k4] with kannala_brandt the fisheye. Further keys, all optional:
  * depth_units (a meter), depth_scale, sensor_pose and imu_pose as `[x y z yaw pitch roll]` in m and
  * degrees. \throws Error naming file and key for a missing, unknown or repeated key (also as `Fx`
  * beside `fx`, which MRPT takes for the same), a value out of range, a principal point outside the
- *          image, or a
- *          lens model other than plumb_bob with up to 5 coefficients */
+ *          image, or another lens model */
 CameraSetup readCameraFile(const std::string& path);
 
 /** The text that readCameraFile reads back to the same numbers. */

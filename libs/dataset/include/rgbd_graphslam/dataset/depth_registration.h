@@ -24,7 +24,8 @@ class DepthRegistration {
     cv::Mat operator()(const cv::Mat& depth) const;
 
   private:
-    void place(const Eigen::Vector3d& point_m, double reach_x, double reach_y, cv::Mat1w& to) const;
+    void place(const Eigen::Vector3d& point_m, const Eigen::Vector2d& reach_px,
+               cv::Mat1w& to) const;
 
     Camera depth_, color_;
     SE3 T_color_depth_;

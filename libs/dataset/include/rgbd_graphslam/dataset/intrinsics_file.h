@@ -14,7 +14,7 @@ namespace rgbd_graphslam {
  *  cameras: the one called color or rgb, else the first. Depth units are those of a key
  *  depth_scale, depth_units or scale, else millimeters are assumed.
  *  \throws Error naming the file when it cannot be read, lacks something, or is of a lens model
- *          other than pinhole with Brown's distortion of up to 5 coefficients */
+ *          other than Brown's of up to 8 coefficients and Kannala and Brandt's */
 CameraSetup readCalibration(const std::string& path);
 
 /** The calibration of a folder, in a file of one of the usual names. */

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "rgbd_graphslam/geometry/camera.h"
+#include "rgbd_graphslam/geometry/camera_model.h"
 #include "rgbd_graphslam/geometry/se3.h"
 
 namespace rgbd_graphslam {
@@ -48,29 +48,41 @@ inline mrpt::Clock::time_point toMrptTime(double stamp_s) {
     return epoch + mrpt::Clock::duration(microseconds * (mrpt::Clock::period::den / 1000000));
 }
 
-/** Of a pinhole or "plumb bob" camera; coefficients beyond k3 are left out. */
-inline Camera toCamera(const mrpt::img::TCamera& camera) {
-    Camera result;
+/** MRPT keeps k3 and k4 of a fisheye where the plumb-bob model has k3 and k4. */
+inline Lens toLens(const mrpt::img::TCamera& camera) {
+    switch (camera.distortion) {
+        case mrpt::img::DistortionModel::plumb_bob:
+            return BrownLens{camera.dist};
+        case mrpt::img::DistortionModel::kannala_brandt:
+            return KannalaBrandtLens{{camera.k1(), camera.k2(), camera.k3(), camera.k4()}};
+        default:
+            return BrownLens{};
+    }
+}
+
+inline Intrinsics toCamera(const mrpt::img::TCamera& camera) {
+    Intrinsics result;
     result.width = static_cast<int>(camera.ncols);
     result.height = static_cast<int>(camera.nrows);
     result.fx = camera.fx();
     result.fy = camera.fy();
     result.cx = camera.cx();
     result.cy = camera.cy();
-    if (camera.distortion != mrpt::img::DistortionModel::none) {
-        result.distortion = {camera.k1(), camera.k2(), camera.p1(), camera.p2(), camera.k3()};
-    }
+    result.lens = toLens(camera);
     return result;
 }
 
-inline mrpt::img::TCamera toTCamera(const Camera& camera) {
+inline mrpt::img::TCamera toTCamera(const Intrinsics& camera) {
     mrpt::img::TCamera result;
     result.ncols = static_cast<uint32_t>(camera.width);
     result.nrows = static_cast<uint32_t>(camera.height);
     result.setIntrinsicParamsFromValues(camera.fx, camera.fy, camera.cx, camera.cy);
-    if (camera.hasDistortion()) {
-        const auto& [k1, k2, p1, p2, k3] = camera.distortion;
-        result.setDistortionPlumbBob(k1, k2, p1, p2, k3);
+    if (const auto* fisheye = std::get_if<KannalaBrandtLens>(&camera.lens)) {
+        const auto& [k1, k2, k3, k4] = fisheye->coefficients;
+        result.setDistortionKannalaBrandt(k1, k2, k3, k4);
+    } else if (camera.hasDistortion()) {
+        result.distortion = mrpt::img::DistortionModel::plumb_bob;
+        result.dist = std::get<BrownLens>(camera.lens).coefficients;
     }
     return result;
 }

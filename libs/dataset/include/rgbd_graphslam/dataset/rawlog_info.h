@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "rgbd_graphslam/geometry/camera.h"
+#include "rgbd_graphslam/geometry/camera_model.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 
 namespace rgbd_graphslam {
@@ -15,7 +15,7 @@ struct RawlogInfo {
     double first_stamp_s = 0, last_stamp_s = 0;
     /** Of the first frame: calibration, depth unit, pose of the camera's optical frame on the
      *  robot, and whether depth is registered to color. */
-    Camera camera;
+    Intrinsics camera;
     double depth_unit_m = 0;
     SE3 T_base_cam;
     bool depth_is_registered = true;

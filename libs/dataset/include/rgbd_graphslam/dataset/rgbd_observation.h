@@ -5,6 +5,7 @@
 #include "rgbd_graphslam/dataset/camera_file.h"
 #include "rgbd_graphslam/dataset/rawlog_info.h"
 #include "rgbd_graphslam/geometry/rgbd_image.h"
+#include "rgbd_graphslam/geometry/rig.h"
 
 namespace rgbd_graphslam {
 
@@ -30,10 +31,14 @@ RgbdImage colorAndDepth(const mrpt::obs::CObservation3DRangeScan::Ptr& observati
  *  as the observation's is resized, which is said once.
  *  \throws Error naming the stamp when it is none, or of a lens whose distortion cannot be undone
  */
-Camera cameraOf(const mrpt::obs::CObservation3DRangeScan& observation);
+Intrinsics cameraOf(const mrpt::obs::CObservation3DRangeScan& observation);
 
 /** Pose of the color camera's optical frame on the robot's base. */
 SE3 cameraOnRobot(const mrpt::obs::CObservation3DRangeScan& observation);
+
+/** The camera of an observation with its sensor's label and its pose on the robot.
+ *  \throws Error as cameraOf() */
+RigCamera rigCameraOf(const mrpt::obs::CObservation3DRangeScan& observation);
 
 /** An observation with calibration and pose, without images. \param stamp_s of the color image */
 mrpt::obs::CObservation3DRangeScan::Ptr makeRgbdObservation(const CameraSetup& setup,

@@ -62,7 +62,7 @@ RgbdSequence readSequence(const std::string& folder, SequenceLayout layout, doub
 
 /** Gives a calibration that states no image size that of the sequence's first color image.
  *  \throws Error when the image cannot be read */
-void completeImageSize(const RgbdSequence& sequence, Camera& camera);
+void completeImageSize(const RgbdSequence& sequence, Intrinsics& camera);
 
 /** The camera that a benchmark publishes for all its sequences or puts into the sequence's folder;
  *  nothing for the TUM benchmark, whose cameras go by the names of sequences.

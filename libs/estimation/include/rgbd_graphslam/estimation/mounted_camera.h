@@ -10,6 +10,7 @@ class MountedCamera {
     explicit MountedCamera(const Camera& camera = {}, const SE3& T_cam_body = {})
         : camera_(camera),
           T_cam_body_(T_cam_body),
+          T_body_cam_(T_cam_body.inverse()),
           is_body_(T_cam_body.R.isIdentity(0) && T_cam_body.t.isZero(0)) {}
 
     const Camera& camera() const { return camera_; }
@@ -19,6 +20,14 @@ class MountedCamera {
     Eigen::Vector3d fromBody(const Eigen::Vector3d& p_body) const {
         return is_body_ ? p_body : T_cam_body_ * p_body;
     }
+    /** The camera's pose, from the body's. */
+    SE3 fromBody(const SE3& T_body_world) const {
+        return is_body_ ? T_body_world : T_cam_body_ * T_body_world;
+    }
+    /** From the camera's coordinates to the body's. */
+    Eigen::Vector3d toBody(const Eigen::Vector3d& p_cam) const {
+        return is_body_ ? p_cam : T_body_cam_ * p_cam;
+    }
     /** Derivatives by a point in the body's coordinates, from those by a point in the camera's. */
     Eigen::Matrix3d byBodyPoint(const Eigen::Matrix3d& by_cam_point) const {
         return is_body_ ? by_cam_point : by_cam_point * T_cam_body_.R;
@@ -26,7 +35,7 @@ class MountedCamera {
 
   private:
     Camera camera_;
-    SE3 T_cam_body_;
+    SE3 T_cam_body_, T_body_cam_;
     /** Most often there is one camera, which defines the body: nothing to multiply. */
     bool is_body_;
 };

@@ -29,19 +29,17 @@ constexpr double nearest_depth_m = 0.05;
 inline Eigen::Vector3d residual(const Camera& camera, const Eigen::Vector3d& p,
                                 const Measurement& m) {
     const double inverse_z = 1 / p.z();
-    return {m.weight_px * (camera.fx * p.x() * inverse_z + camera.cx - m.u),
-            m.weight_px * (camera.fy * p.y() * inverse_z + camera.cy - m.v),
+    const Eigen::Vector2d pixel = camera.project(p, inverse_z);
+    return {m.weight_px * (pixel.x() - m.u), m.weight_px * (pixel.y() - m.v),
             m.weight_depth * (inverse_z - m.inverse_depth)};
 }
 
 /** Derivative of `residual` by the camera-frame point, 3x3. */
 inline Eigen::Matrix3d residualJacobian(const Camera& camera, const Eigen::Vector3d& p,
                                         const Measurement& m) {
-    const double inverse_z = 1 / p.z(), inverse_z2 = inverse_z * inverse_z;
+    const double inverse_z = 1 / p.z();
     Eigen::Matrix3d J;
-    J << m.weight_px * camera.fx * inverse_z, 0, -m.weight_px * camera.fx * p.x() * inverse_z2,  //
-        0, m.weight_px * camera.fy * inverse_z, -m.weight_px * camera.fy * p.y() * inverse_z2,   //
-        0, 0, -m.weight_depth * inverse_z2;
+    J << camera.projectionJacobian(p, m.weight_px), 0, 0, -m.weight_depth * (inverse_z * inverse_z);
     return J;
 }
 

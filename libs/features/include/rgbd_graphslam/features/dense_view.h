@@ -9,7 +9,7 @@ namespace rgbd_graphslam {
 /** Gray and depth at some 80 columns, undistorted; row by row. */
 struct DenseView {
     /** Of the small image, without distortion. */
-    Camera camera{0, 0, 1, 1, 0, 0, {}};
+    Camera camera = Intrinsics{0, 0, 1, 1, 0, 0, {}};
     std::vector<float> gray;     // 0 to 255
     std::vector<float> depth_m;  // along the optical axis; 0 = none
 
@@ -19,9 +19,6 @@ struct DenseView {
     /** Standard deviation of the gray values. */
     double contrast() const;
 };
-
-/** The pinhole of an image of which each pixel stands for `block_px` x `block_px` ones. */
-Camera shrunk(const Camera& camera, int block_px);
 
 /** At half the size; depth is that of the nearest surface among the four. */
 DenseView halved(const DenseView& view);

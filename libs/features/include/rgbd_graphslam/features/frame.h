@@ -14,7 +14,7 @@ namespace rgbd_graphslam {
 
 /** A corner with its place, scale, orientation and depth. */
 struct Keypoint {
-    /** Undistorted pixel of the full-size image, with sub-pixel part. */
+    /** Pixel of the full-size image of the rectified camera, with sub-pixel part. */
     float u = 0, v = 0;
     /** Along the optical axis, m; 0 = none. */
     float depth_m = 0;
@@ -24,21 +24,26 @@ struct Keypoint {
     int octave = 0;
     /** Placed by the patch of the landmark that it shows, or itself the place of that patch. */
     bool aligned = false;
+    /** Of the rig, that saw it. */
+    int camera = 0;
 };
 
-/** Keypoints sorted into square cells for windowed search. */
+/** Keypoints sorted into square cells for windowed search, those of each camera by themselves. */
 class KeypointGrid {
   public:
     KeypointGrid() = default;
-    KeypointGrid(const std::vector<Keypoint>& keypoints, int width, int height);
+    /** \param width, height of the largest image, px */
+    KeypointGrid(const std::vector<Keypoint>& keypoints, int width, int height, int cameras = 1);
 
     /** Calls visit(index) for the keypoints of all cells that touch the square of half side
      *  `radius` around (u, v); the caller checks the exact distance. */
     template <class Visit>
-    void visit(float u, float v, float radius, Visit&& visit) const {
+    void visit(float u, float v, float radius, Visit&& visit, int camera = 0) const {
         const int x0 = clampedColumn(u - radius), x1 = clampedColumn(u + radius);
         const int y0 = clampedRow(v - radius), y1 = clampedRow(v + radius);
-        for (int y = y0; y <= y1; ++y) {
+        const int above =
+            camera * rows_;  // the cells of a camera lie below those of the one before
+        for (int y = above + y0; y <= above + y1; ++y) {
             const int end = first_[y * columns_ + x1 + 1];
             for (int i = first_[y * columns_ + x0]; i < end; ++i) visit(indices_[i]);
         }
@@ -48,7 +53,7 @@ class KeypointGrid {
     int clampedColumn(float u) const;
     int clampedRow(float v) const;
 
-    int columns_ = 1, rows_ = 1;
+    int columns_ = 1, rows_ = 1;       // for each camera
     std::vector<int> first_ = {0, 0};  // cell -> position in indices_, one more than cells
     std::vector<int> indices_;
 };
@@ -59,7 +64,7 @@ struct DeadReckoning {
     std::optional<Eigen::Matrix3d> R_gyroscope_cam;
 };
 
-/** Features of one image; position i of every list is keypoint i. */
+/** Features of the images that a rig took at one moment; position i of every list is keypoint i. */
 struct Frame {
     double stamp_s = 0;
     std::vector<Keypoint> keypoints;
@@ -67,10 +72,14 @@ struct Frame {
     /** Until the frame is tracked; a keyframe's until the next keyframe. */
     std::vector<Patch> patches;
     KeypointGrid grid;
-    /** The image as a whole, made when it is first asked for: most frames are tracked without.
-     *  Not valid in keyframes. */
+    /** The first camera's image as a whole, if it took one, made when it is first asked for: most
+     * frames are tracked without. Not valid in keyframes. */
     std::shared_future<DenseView> view;
     DeadReckoning reckoning;
 };
+
+/** Adds what another camera saw at the same moment. \param camera its number, > 0
+ *  The grid of `frame` must be made anew. */
+void append(Frame seen, int camera, Frame& frame);
 
 }  // namespace rgbd_graphslam

@@ -15,7 +15,7 @@ class FrameBuilder {
   public:
     FrameBuilder(const FeatureOptions& options, const Camera& camera);
 
-    /** Extracts corners, undistorts their positions and reads their depth. Thread-safe. The frame
+    /** Extracts corners, rectifies their positions and reads their depth. Thread-safe. The frame
      *  shares the pixels until its view is dropped.
      *  \throws Error when the images are not of the camera's size or of the wrong type */
     Frame build(const RgbdImage& image) const;

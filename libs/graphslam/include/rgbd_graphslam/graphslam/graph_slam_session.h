@@ -19,18 +19,20 @@ namespace rgbd_graphslam {
  *  threads that print. */
 class GraphSlamSession {
   public:
-    /** \param first_frame gives the camera's calibration and its pose on the robot */
+    /** \param rig cameras with their poses on the robot, see rigCameraOf() */
+    GraphSlamSession(const SlamOptions& options, const Rig& rig);
+    /** Of one camera. \param first_frame gives its calibration and its pose on the robot */
     GraphSlamSession(const SlamOptions& options,
                      const mrpt::obs::CObservation3DRangeScan& first_frame);
     /** Starts from a map, lost in it.
-     *  \throws Error when it does not fit the options or the camera */
-    GraphSlamSession(const SlamOptions& options,
-                     const mrpt::obs::CObservation3DRangeScan& first_frame, MapSnapshot map,
-                     MapUse use);
+     *  \throws Error when it does not fit the options or the cameras */
+    GraphSlamSession(const SlamOptions& options, const Rig& rig, MapSnapshot map, MapUse use);
     ~GraphSlamSession();
 
     /** Features of a frame. Thread-safe, so that it can run ahead of step(). */
     Frame prepare(const RgbdImage& image) const;
+    /** Of images that cameras of the rig took at one moment, by rising number. */
+    Frame prepare(const std::vector<CameraImage>& images) const;
 
     /** Tracks the next frame, grows the graph, closes loops.
      *  \param prepared what prepare() made of the observation
@@ -51,7 +53,7 @@ class GraphSlamSession {
     void load(ByteReader& in);
 
     const VisualSlam& slam() const;
-    /** Pose of the color camera's optical frame on the robot's base. */
+    /** Pose of the first color camera's optical frame on the robot's base. */
     const SE3& T_base_cam() const;
 
     /** Writes the graph in MRPT's text format (that of TORO): robot poses at the keyframes,

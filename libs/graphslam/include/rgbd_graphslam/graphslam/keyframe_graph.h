@@ -40,8 +40,8 @@ struct KeyframeGraph : mrpt::graphs::CNetworkOfPoses3DInf {
     void dijkstra_nodes_estimate(Arguments&&...) {}
 };
 
-/** Starts the SLAM of a graph. \param frame gives calibration and pose on the robot */
-void startSlam(SharedSlam& shared, const mrpt::obs::CObservation3DRangeScan& frame);
+/** Starts the SLAM of a graph. \param rig cameras on the robot */
+void startSlam(SharedSlam& shared, const Rig& rig);
 
 /** A map that a run starts from. */
 struct StartMap {
@@ -51,8 +51,7 @@ struct StartMap {
 
 /** Starts in a map, which fills the graph with its keyframes, odometry and loops.
  *  \throws Error when the map does not fit the options or the camera */
-void startSlam(KeyframeGraph& graph, const mrpt::obs::CObservation3DRangeScan& frame,
-               StartMap start);
+void startSlam(KeyframeGraph& graph, const Rig& rig, StartMap start);
 
 /** Robot pose in the graph's world. \param T_world_cam in the world of VisualSlam */
 mrpt::poses::CPose3D robotPose(const SE3& T_world_cam, const SE3& T_base_cam);

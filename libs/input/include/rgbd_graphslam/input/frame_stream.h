@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "rgbd_graphslam/features/frame.h"
@@ -15,6 +16,7 @@
 #include "rgbd_graphslam/input/observation_source.h"
 #include "rgbd_graphslam/input/sensor_census.h"
 #include "rgbd_graphslam/slam/stage_times.h"
+#include "rgbd_graphslam/slam/visual_slam.h"
 
 namespace rgbd_graphslam {
 
@@ -24,7 +26,12 @@ struct StreamedFrame {
     std::vector<mrpt::obs::CObservation::Ptr> before;
     /** Counts the RGB-D frames of the camera from 0. */
     std::size_t index = 0;
+    /** Of the camera with the lowest number among those that took part. */
     mrpt::obs::CObservation3DRangeScan::Ptr observation;
+    /** Number of that camera in the rig. */
+    int camera = 0;
+    /** What other cameras took at the same moment, by rising number of the camera. */
+    std::vector<std::pair<int, mrpt::obs::CObservation3DRangeScan::Ptr>> others;
     Frame prepared;
     /** Goes into the prepared frame. */
     DeadReckoning reckoning;
@@ -41,10 +48,15 @@ struct ReadAhead {
  *  wait when these are not fetched. */
 class FrameStream {
   public:
-    using Prepare = std::function<Frame(const RgbdImage&)>;
+    using Prepare = std::function<Frame(const std::vector<CameraImage>&)>;
 
-    /** Reads up to the first RGB-D frame.
-     *  \param sensor_label of the camera to take; empty = the one whose frame comes first
+    /** Observations further apart are different frames, s. */
+    static constexpr double same_moment_s = 0.004;
+
+    /** Reads the first RGB-D frames. Cameras that begin within three frames of the first one form a
+     *  rig with it: their observations of one moment are one frame. Of cameras that claim to be in
+     *  the same place only the first is taken, which is said.
+     *  \param sensor_label of the only camera to take; empty = all
      *  \throws Error when the source has no RGB-D frame of that camera */
     FrameStream(std::unique_ptr<ObservationSource> source, const ReadAhead& ahead,
                 const std::string& sensor_label = {});
@@ -52,6 +64,8 @@ class FrameStream {
     FrameStream(const FrameStream&) = delete;
     FrameStream& operator=(const FrameStream&) = delete;
 
+    const Rig& rig() const;
+    /** Of the rig's first camera. */
     const mrpt::obs::CObservation3DRangeScan& firstFrame() const;
 
     /** Reads the next frames, or as many as there are, which next() hands out all the same; only

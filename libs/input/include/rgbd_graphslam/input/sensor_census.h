@@ -22,6 +22,8 @@ class SensorCensus {
   public:
     /** \param used whether anything reads this observation */
     void note(const mrpt::obs::CObservation& observation, bool used);
+    /** Marks a sensor as not used after all. */
+    void leaveOut(const std::string& label);
     /** In the order in which they first came. */
     const std::vector<SensorRecord>& sensors() const { return sensors_; }
 

@@ -68,7 +68,7 @@ struct JobReport {
     /** Of a map that was extended. */
     std::vector<EarlierSession> earlier;
     /** Of the map; nothing where none was written. */
-    std::optional<Camera> camera;
+    std::optional<Intrinsics> camera;
     double path_m = 0;
     /** Against the rawlog's ground truth, where it has one. */
     std::optional<double> ate_rmse_m;

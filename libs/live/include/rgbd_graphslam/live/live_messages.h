@@ -41,7 +41,7 @@ struct LiveFrame {
     SE3 T_world_cam;
     /** The keyframe it became, or -1. */
     int keyframe = -1;
-    Camera camera;  // of the images as the sensor made them
+    Intrinsics camera;  // of the images as the sensor made them
     std::vector<LiveFeature> features;
     /** Of all frames since the last picture, this one included. */
     std::vector<LiveStatistic> statistics;

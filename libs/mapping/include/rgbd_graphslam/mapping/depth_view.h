@@ -26,9 +26,11 @@ class RayTable {
     cv::Mat1f rectified(const cv::Mat1f& depth) const;
 
     const Camera& camera() const { return camera_; }
+    /** The camera of rectified images. */
+    const Camera& pinhole() const { return pinhole_; }
 
   private:
-    Camera camera_;
+    Camera camera_, pinhole_;
     std::vector<Eigen::Vector2f> directions_;
     std::vector<int> rectified_from_;  // pixel index or -1; empty without distortion
 };

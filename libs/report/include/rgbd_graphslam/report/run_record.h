@@ -38,7 +38,7 @@ struct LoopRecord {
 /** What was run, when and with which camera; empty of runs of earlier versions. */
 struct RunOrigin {
     std::string command, date;
-    std::optional<Camera> camera;
+    std::optional<Intrinsics> camera;
 };
 
 /** What summary.json says of a run's quality without ground truth; what is missing there, because

@@ -8,8 +8,9 @@ namespace rgbd_graphslam {
  *  the frame before should be and was not found. */
 struct FeatureView {
     enum class State { Tracked, New, Lost };
-    Eigen::Vector2d pixel;  // undistorted
+    Eigen::Vector2d pixel;  // rectified
     State state = State::New;
+    int camera = 0;  // of the rig
 };
 
 }  // namespace rgbd_graphslam

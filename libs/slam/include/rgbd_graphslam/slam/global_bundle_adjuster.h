@@ -14,7 +14,7 @@ namespace rgbd_graphslam {
 class GlobalBundleAdjuster {
   public:
     /** All arguments must outlive the adjuster. */
-    GlobalBundleAdjuster(const SlamOptions& options, const Camera& camera, SlamMap& map);
+    GlobalBundleAdjuster(const SlamOptions& options, const RigCameras& cameras, SlamMap& map);
 
     /** Begins on a copy of the map as it is. Nothing may be pending. */
     void start(int iterations);
@@ -38,7 +38,7 @@ class GlobalBundleAdjuster {
     void solveInBackground(MapAdjustment adjustment);
 
     const SlamOptions& options_;
-    const Camera& camera_;
+    const RigCameras& cameras_;
     SlamMap& map_;
     int iterations_ = 0;
     /** As it was begun: what is at work cannot be read until it is done. */

@@ -16,7 +16,7 @@ namespace rgbd_graphslam {
 class LocalMapper {
   public:
     /** All arguments must outlive the mapper. */
-    LocalMapper(const SlamOptions& options, const Camera& camera, SlamMap& map);
+    LocalMapper(const SlamOptions& options, const RigCameras& cameras, SlamMap& map);
 
     /** Grows the map by a keyframe that was just added with its tracked landmarks, and starts the
      *  adjustment. applyPendingAdjustment() must have been called since the last time. */
@@ -52,7 +52,7 @@ class LocalMapper {
     MapAdjustment adjustmentAround(int id) const;
 
     const SlamOptions& options_;
-    const Camera& camera_;
+    const RigCameras& cameras_;
     SlamMap& map_;
     std::vector<int> recent_;  // landmarks still on probation
     std::unique_ptr<BackgroundBundleAdjustment> pending_;

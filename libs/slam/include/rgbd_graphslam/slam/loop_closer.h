@@ -15,7 +15,7 @@ namespace rgbd_graphslam {
 class LoopCloser {
   public:
     /** All arguments must outlive the closer. */
-    LoopCloser(const SlamOptions& options, const Camera& camera, SlamMap& map);
+    LoopCloser(const SlamOptions& options, const RigCameras& cameras, SlamMap& map);
     LoopCloser(const LoopCloser&) = delete;
     LoopCloser& operator=(const LoopCloser&) = delete;
 
@@ -51,7 +51,7 @@ class LoopCloser {
     void fuse(const VerifiedLoop& loop, LocalMapper& mapper);
 
     const SlamOptions& options_;
-    const Camera& camera_;
+    const RigCameras& cameras_;
     SlamMap& map_;
     std::vector<PoseEdge> loops_;
     LoopPlausibility plausibility_;

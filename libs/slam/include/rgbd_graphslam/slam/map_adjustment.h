@@ -17,7 +17,7 @@ class MapAdjustment {
     /** \param free keyframes that are moved, by rising id
      *  \param fixed keyframes that hold them
      *  \param landmarks by rising id */
-    MapAdjustment(const SlamMap& map, const Camera& camera, const SensorOptions& sensor,
+    MapAdjustment(const SlamMap& map, const RigCameras& cameras, const SensorOptions& sensor,
                   std::vector<int> free, const std::vector<int>& fixed, std::vector<int> landmarks);
 
     BundleProblem problem;
@@ -32,7 +32,7 @@ class MapAdjustment {
 
     void save(ByteWriter& out) const;
     /** \throws DamagedBytes when the bytes do not fit the map */
-    MapAdjustment(ByteReader& in, const SlamMap& map, const Camera& camera);
+    MapAdjustment(ByteReader& in, const SlamMap& map, const RigCameras& cameras);
 
   private:
     bool isStill(int landmark, const SlamMap& map) const;

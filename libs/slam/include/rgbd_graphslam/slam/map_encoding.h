@@ -14,7 +14,8 @@ namespace rgbd_graphslam {
 constexpr int most_levels = 32;
 
 // Sizes on disk, for checking counts before anything is allocated.
-constexpr std::size_t keypoint_bytes = 4 * sizeof(float) + 2 + sizeof(Descriptor);
+constexpr std::size_t camera_bytes = 2 * sizeof(std::int32_t) + 16 * sizeof(double);
+constexpr std::size_t keypoint_bytes = 4 * sizeof(float) + 3 + sizeof(Descriptor);
 constexpr std::size_t pose_bytes = 12 * sizeof(double);
 constexpr std::size_t keyframe_bytes = sizeof(double) + 2 * 4 + pose_bytes + 2;
 constexpr std::size_t landmark_bytes = 7 * sizeof(double) + sizeof(Descriptor) + 1 + 4 * 4;
@@ -52,14 +53,16 @@ void put(const Descriptor& descriptor, ByteWriter& out);
 Descriptor getDescriptor(ByteReader& in);
 
 void put(const LandmarkPatch& seen, ByteWriter& out);
-LandmarkPatch getPatch(ByteReader& in, int levels);
+LandmarkPatch getPatch(ByteReader& in, int levels, int cameras);
 
 void put(const Camera& camera, ByteWriter& out);
 Camera getCamera(ByteReader& in);
+void put(const Rig& rig, ByteWriter& out);
+Rig getRig(ByteReader& in);
 
 /** Stamp, keypoints and descriptors. */
 void put(const Frame& frame, ByteWriter& out);
-Frame getFrame(ByteReader& in, const Camera& camera, int levels);
+Frame getFrame(ByteReader& in, const RigCameras& cameras, int levels);
 
 void put(Link link, ByteWriter& out);
 Link getLink(ByteReader& in);
@@ -67,14 +70,15 @@ Link getLink(ByteReader& in);
 /** All but its landmarks, which name it themselves. */
 void put(const Keyframe& keyframe, ByteWriter& out);
 /** \param keyframes there are */
-Keyframe getKeyframe(ByteReader& in, int id, std::size_t keyframes, const Camera& camera,
+Keyframe getKeyframe(ByteReader& in, int id, std::size_t keyframes, const RigCameras& cameras,
                      int levels);
 /** \throws DamagedBytes unless culled ones see nothing and are tied to living ones */
 void checkCulled(const std::vector<Keyframe>& keyframes);
 
 void put(const Landmark& landmark, ByteWriter& out);
 /** Notes the observations at the keyframes, too. */
-Landmark getLandmark(ByteReader& in, int id, std::vector<Keyframe>& keyframes, int levels);
+Landmark getLandmark(ByteReader& in, int id, std::vector<Keyframe>& keyframes, int levels,
+                     int cameras);
 
 /** All but its kind. */
 void put(const PoseEdge& edge, ByteWriter& out);

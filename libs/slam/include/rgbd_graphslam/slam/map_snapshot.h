@@ -12,7 +12,7 @@ namespace rgbd_graphslam {
 /** Keyframes, landmarks and loops of a map, and the camera they belong to. */
 struct MapSnapshot {
     /** That took the keyframes. */
-    Camera camera;
+    Rig rig;
     double scale_factor = 1;
     int levels = 1;
     std::vector<Keyframe> keyframes;
@@ -22,7 +22,7 @@ struct MapSnapshot {
 };
 
 /** \param map is copied; dead landmarks are left out and the others numbered anew in their order */
-MapSnapshot takeSnapshot(const SlamMap& map, const Camera& camera, double scale_factor,
+MapSnapshot takeSnapshot(const SlamMap& map, const Rig& rig, double scale_factor,
                          std::vector<PoseEdge> loops);
 
 void encode(const MapSnapshot& snapshot, ByteWriter& out);

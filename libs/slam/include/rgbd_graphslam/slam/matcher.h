@@ -11,7 +11,18 @@ struct SearchWindow {
     float u = 0, v = 0;  // px
     float radius = 0;    // px
     int octave_min = 0, octave_max = 0;
+    int camera = 0;
 };
+
+/** Around a pixel, on the levels next to the one expected. */
+inline SearchWindow windowAt(int camera, const Eigen::Vector2d& pixel, float radius, int octave) {
+    return {static_cast<float>(pixel.x()),
+            static_cast<float>(pixel.y()),
+            radius,
+            octave - 1,
+            octave + 1,
+            camera};
+}
 
 /** Keypoints of a frame claimed by points; the nearer descriptor wins a contested keypoint. */
 class MatchTable {
@@ -24,8 +35,9 @@ class MatchTable {
 
     /** Looks for `point` and claims the best keypoint in the window for it, unless a second one
      *  comes nearly as near (`ratio` of best to second distance on neighboring levels).
-     *  \param max_hamming farthest distance accepted */
-    void search(int point, const Descriptor& descriptor, const SearchWindow& window,
+     *  \param max_hamming farthest distance accepted
+     *  \return whether it has a keypoint now */
+    bool search(int point, const Descriptor& descriptor, const SearchWindow& window,
                 int max_hamming, float ratio);
 
     /** Claims so far: (keypoint, point) by rising keypoint. */

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rgbd_graphslam/estimation/pose_solver.h"
+#include "rgbd_graphslam/slam/rig_cameras.h"
 
 namespace rgbd_graphslam {
 
@@ -20,7 +21,7 @@ struct RansacAlignment {
  * improbable. \param points_cam matched points in camera coordinates, one a match, m \param
  * max_iterations of sampling; \param seed of the sampling \return nothing with fewer than three
  * matches or no sample that fits */
-std::optional<RansacAlignment> alignRobustly(const Camera& camera,
+std::optional<RansacAlignment> alignRobustly(const RigCameras& cameras,
                                              const std::vector<PointMatch>& matches,
                                              const std::vector<Eigen::Vector3d>& points_cam,
                                              int max_iterations, std::uint64_t seed);

@@ -9,6 +9,7 @@
 #include "rgbd_graphslam/core/byte_stream.h"
 #include "rgbd_graphslam/features/frame.h"
 #include "rgbd_graphslam/geometry/se3.h"
+#include "rgbd_graphslam/slam/rig_cameras.h"
 
 namespace rgbd_graphslam {
 
@@ -24,6 +25,7 @@ struct Observation {
 struct LandmarkPatch {
     Patch patch;
     int octave = 0;
+    int camera = 0;
 };
 
 /** A point of the world that keyframes see. Its appearance is that of the latest keyframe that saw
@@ -89,9 +91,9 @@ class SlamMap {
 
     /** All of it, to the bit. */
     void save(ByteWriter& out) const;
-    /** \param camera that the keyframes are of
+    /** \param cameras that the keyframes are of
      *  \throws DamagedBytes */
-    void load(ByteReader& in, const Camera& camera);
+    void load(ByteReader& in, const RigCameras& cameras);
 
     /** The frame's small image is dropped; its patches stay for addLandmark() until the next.
      *  \param submap of the map that it belongs to */

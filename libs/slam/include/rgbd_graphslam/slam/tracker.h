@@ -36,7 +36,7 @@ struct ExpectedPose {
 class Tracker {
   public:
     /** All arguments must outlive the tracker. */
-    Tracker(const SlamOptions& options, const Camera& camera, SlamMap& map);
+    Tracker(const SlamOptions& options, const RigCameras& cameras, SlamMap& map);
 
     /** \param frame keypoints move to the exact places of the landmarks that they show
      *  \return nothing when fewer than `min_inliers` landmarks agree with any pose */
@@ -99,7 +99,7 @@ class Tracker {
                                    const std::vector<int>& keyframes, std::vector<int>& landmarks);
 
     const SlamOptions& options_;
-    const Camera& camera_;
+    const RigCameras& cameras_;
     SlamMap& map_;
     std::optional<Last> last_;
     std::vector<int> landmarks_before_;  // of the frame before the last one

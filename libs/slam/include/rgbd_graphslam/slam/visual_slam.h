@@ -9,8 +9,8 @@
 
 #include "rgbd_graphslam/estimation/pose_graph.h"
 #include "rgbd_graphslam/features/frame.h"
-#include "rgbd_graphslam/geometry/camera.h"
 #include "rgbd_graphslam/geometry/rgbd_image.h"
+#include "rgbd_graphslam/geometry/rig.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
 #include "rgbd_graphslam/slam/feature_view.h"
 #include "rgbd_graphslam/slam/map_snapshot.h"
@@ -83,6 +83,12 @@ struct LandmarkView {
     int observations = 0;
 };
 
+/** An image and the camera of the rig that took it. */
+struct CameraImage {
+    int camera = 0;
+    RgbdImage image;
+};
+
 /** Feed frames in order of time:
  *  \code
  *    VisualSlam slam(options, camera);
@@ -95,15 +101,23 @@ struct LandmarkView {
  *  The result depends on the frames and options only, never on timing or thread count. */
 class VisualSlam {
   public:
-    VisualSlam(const SlamOptions& options, const Camera& camera);
+    /** \param rig its first camera is the one whose poses are told; see rigOf() for a single one */
+    VisualSlam(const SlamOptions& options, const Rig& rig);
+    VisualSlam(const SlamOptions& options, const CameraModel& camera)
+        : VisualSlam(options, rigOf(camera)) {}
     /** Starts from a map, lost in it.
-     *  \throws Error when the map is of another image pyramid, or is to be extended by another
-     *          camera */
-    VisualSlam(const SlamOptions& options, const Camera& camera, MapSnapshot map, MapUse use);
+     *  \throws Error when the map is of another image pyramid or number of cameras, or is to be
+     *          extended by other cameras */
+    VisualSlam(const SlamOptions& options, const Rig& rig, MapSnapshot map, MapUse use);
+    VisualSlam(const SlamOptions& options, const CameraModel& camera, MapSnapshot map, MapUse use)
+        : VisualSlam(options, rigOf(camera), std::move(map), use) {}
     ~VisualSlam();
 
     /** Features of an image with their depth. Thread-safe: a pipeline calls it ahead of track(). */
     Frame prepare(const RgbdImage& image) const;
+    /** Of images that cameras of the rig took at one moment, by rising number of the camera; the
+     *  frame's stamp is the first one's. */
+    Frame prepare(const std::vector<CameraImage>& images) const;
 
     /** Pose of the next frame. \throws Error when its stamp is not later than the last one's */
     TrackedFrame track(Frame frame);

@@ -1,5 +1,6 @@
 /** Films a scenario and writes it as a folder in the layout of the TUM RGB-D benchmark. */
 #pragma once
+#include <array>
 #include <string>
 
 #include "rgbd_graphslam/geometry/camera.h"
@@ -22,6 +23,9 @@ struct FilmOptions {
     int session = 1;
     /** Only every so many frames are filmed: a slower camera on the same way. */
     int every = 1;
+    /** Another camera of the same rig: where it sits on the scenario's, whose axes are x forward, y
+     *  left, z up. [x y z yaw pitch roll] in m and degrees. */
+    std::array<double, 6> mount{};
 };
 
 /** The camera of a sequence: 525 pixels of focal length at 640 x 480, scaled to other widths. */

@@ -1,0 +1,101 @@
+/** SLAM through lenses: the pictures of a synthetic sequence as other lenses would have taken them.
+ */
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <ostream>
+
+#include "../support/synthetic_film.h"
+#include "rgbd_graphslam/dataset/camera_file.h"
+#include "rgbd_graphslam/geometry/camera_model.h"
+
+namespace rgbd_graphslam {
+namespace {
+namespace fs = std::filesystem;
+
+constexpr int frames = 90;
+constexpr double pinhole_ate_m = 0.010;  // what synthetic_test.cpp asks of the same film
+
+/** Where in the pinhole's picture each pixel of another camera looks. */
+cv::Mat2f lookupTable(const CameraModel& pinhole, const CameraModel& camera) {
+    cv::Mat2f table(camera.height, camera.width);
+    for (int v = 0; v < table.rows; ++v) {
+        for (int u = 0; u < table.cols; ++u) {
+            const Eigen::Vector2d from = pinhole.project(camera.bearing(Eigen::Vector2d(u, v)));
+            table(v, u) = {static_cast<float>(from.x()), static_cast<float>(from.y())};
+        }
+    }
+    return table;
+}
+
+/** Depth is along the axis, which lenses leave alone. */
+void warpImages(const std::string& from, const std::string& to, const cv::Mat2f& table) {
+    for (const char* kind : {"rgb", "depth"}) {
+        fs::create_directories(fs::path(to) / kind);
+        const int how = kind[0] == 'r' ? cv::INTER_CUBIC : cv::INTER_NEAREST;
+        for (const auto& entry : fs::directory_iterator(fs::path(from) / kind)) {
+            cv::Mat warped;
+            cv::remap(cv::imread(entry.path().string(), cv::IMREAD_UNCHANGED), warped, table, {},
+                      how);
+            cv::imwrite((fs::path(to) / kind / entry.path().filename()).string(), warped);
+        }
+    }
+}
+
+struct LensCase {
+    const char* name;
+    double focal_px;
+    Lens lens;
+};
+
+void PrintTo(const LensCase& lens, std::ostream* out) {
+    *out << lens.name;
+}
+
+class SlamThroughLenses : public ::testing::TestWithParam<LensCase> {};
+
+TEST_P(SlamThroughLenses, isAsExactAsThroughAPinhole) {
+    const std::string film = filmOf("office", "--frames " + std::to_string(frames));
+    if (HasFatalFailure()) return;
+    const TestFolder folder;
+    const std::string warped = folder / "warped";
+    fs::create_directories(warped);
+    CameraSetup setup = readCameraFile(film + "/camera.ini");
+    const CameraModel pinhole = setup.camera;
+    setup.camera.fx = setup.camera.fy = GetParam().focal_px;
+    setup.camera.lens = GetParam().lens;
+    warpImages(film, warped, lookupTable(pinhole, setup.camera));
+    for (const auto& entry : fs::directory_iterator(film)) {
+        if (entry.path().extension() == ".txt")
+            fs::copy_file(entry.path(), fs::path(warped) / entry.path().filename());
+    }
+    std::ofstream(warped + "/camera.ini") << toIniText(setup);
+    const std::string rawlog = folder / "warped.rawlog";
+    runOrFail("rgbd-import", "'" + warped + "' '" + rawlog + "' -q");
+    if (HasFatalFailure()) return;
+    runOrFail("rgbd-slam", "'" RGBD_SOURCE_DIR "/ini/default.ini' '" + rawlog + "' -o '" +
+                               folder / "run" + "' -q --no-maps");
+    if (HasFatalFailure()) return;
+    const auto summary = nlohmann::json::parse(std::ifstream(folder / "run/summary.json"));
+    EXPECT_EQ(summary["tracked"], frames);
+    EXPECT_LE(summary["ate"]["rmse_m"].get<double>(), pinhole_ate_m);
+    std::printf("%s: ATE %.4f m\n", GetParam().name, summary["ate"]["rmse_m"].get<double>());
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, SlamThroughLenses,
+    ::testing::Values(LensCase{"none", 525, {}},
+                      LensCase{"rational", 560,
+                               BrownLens{{0.52, -2.74, 0.0004, -0.0003, 1.59, 0.40, -2.55, 1.51}}},
+                      LensCase{"strongRational", 525,
+                               BrownLens{{0.9, 0.35, 0.002, -0.001, 0.02, 1.25, 0.55, 0.08}}},
+                      LensCase{"kannalaBrandt", 560,
+                               KannalaBrandtLens{{-0.0027, 0.0387, -0.0365, 0.0062}}}),
+    [](const auto& param_info) { return param_info.param.name; });
+
+}  // namespace
+}  // namespace rgbd_graphslam
