@@ -143,7 +143,7 @@ void addPointCloud(CLI::App& app, PointCloudRequest& request, std::vector<std::s
     });
 }
 
-void declareSurface(CLI::App& command, const std::string& map, SurfaceRequest& request) {
+void declareAlignedMap(CLI::App& command, const std::string& map, SurfaceRequest& request) {
     command.add_option(map, request.map, "The map")->required();
     command.add_option("TRUE_SURFACE.ply", request.surface, "Triangles, or points close together")
         ->required();
@@ -153,6 +153,11 @@ void declareSurface(CLI::App& command, const std::string& map, SurfaceRequest& r
     command.add_option("--truth", request.truth, "True trajectory, in the surface's frame")
         ->needs(estimate);
     estimate->needs("--truth");
+    declareFormat(command, request.format);
+}
+
+void declareSurface(CLI::App& command, const std::string& map, SurfaceRequest& request) {
+    declareAlignedMap(command, map, request);
     command
         .add_option("--camera", request.camera,
                     "Name or ini file: tell of what the camera saw on the true trajectory, too")
@@ -161,7 +166,6 @@ void declareSurface(CLI::App& command, const std::string& map, SurfaceRequest& r
                   positive());
     declareNumber(command, "--max-incidence", request.sight.max_incidence_deg,
                   "The camera measures up to so many degrees off the surface's normal", positive());
-    declareFormat(command, request.format);
 }
 
 void addMap(CLI::App& app, MapRequest& request) {
@@ -171,6 +175,10 @@ void addMap(CLI::App& app, MapRequest& request) {
     declareNumber(command, "--complete-within", options.completeness_distance_m,
                   "A place of the surface with a point of the map nearer is covered, m",
                   positive());
+    declareNumber(command, "--beyond", options.beyond_m,
+                  "Tell the share of points farther from the surface than this, m", positive());
+    command.add_option("--movers", request.movers,
+                       "movers.csv of rgbd-synth: tell the share of them where something moved");
     command.final_callback([&request] { print(runMap(request)); });
 }
 
@@ -180,6 +188,39 @@ void addOctree(CLI::App& app, OctreeRequest& request) {
     declareNumber(command, "--tolerance", request.tolerance_m,
                   "An occupied voxel so near to the surface is right, m", notNegative());
     command.final_callback([&request] { print(runOctreeEvaluation(request)); });
+}
+
+void addGrid(CLI::App& app, GridRequest& request) {
+    auto& command = *app.add_subcommand("grid", "Occupied cells of a grid that are wrong");
+    declareAlignedMap(command, "GRID.yaml", request);
+    auto& options = request.options;
+    declareNumber(command, "--tolerance", options.tolerance_m,
+                  "A cell is right with an obstacle so near, seen from above, m", positive());
+    declareNumber(command, "--z-min", options.min_z_m,
+                  "Obstacles begin at this height of the surface's frame, m");
+    declareNumber(command, "--z-max", options.max_z_m, "Obstacles end at this height, m");
+    command.add_option("--movers", request.movers,
+                       "movers.csv of rgbd-synth: tell how many of them are where something moved");
+    command.final_callback([&request] { print(runGrid(request)); });
+}
+
+void addMasks(CLI::App& app, MasksRequest& request) {
+    auto& command = *app.add_subcommand("masks", "Agreement of masks of moving things");
+    command.add_option("ESTIMATED_DIR", request.estimated, "Masks, PNG files named by stamp")
+        ->required();
+    command
+        .add_option("TRUE_DIR", request.truth,
+                    "True masks, e.g. mask/ of rgbd-synth, with movers.csv beside the folder")
+        ->required();
+    auto& options = request.options;
+    declareNumber(command, "--min-share", options.min_share,
+                  "Score pictures of which movers take up this share", notNegative());
+    declareNumber(command, "--min-speed", options.min_speed_m_s,
+                  "Score pictures whose fastest mover has this speed, m/s", notNegative());
+    declareNumber(command, "--max-difference", options.max_difference_s,
+                  "Stamps further apart are no pair, s", positive());
+    declareFormat(command, request.format);
+    command.final_callback([&request] { print(runMasks(request)); });
 }
 
 int run(int argc, char** argv) {
@@ -202,6 +243,10 @@ int run(int argc, char** argv) {
     addMap(app, map);
     OctreeRequest octree;
     addOctree(app, octree);
+    GridRequest grid;
+    addGrid(app, grid);
+    MasksRequest masks;
+    addMasks(app, masks);
     declareExamples(app,
                     {"rgbd-eval ate out/trajectory.txt office.rawlog --plot ate.png",
                      "rgbd-eval rpe out/trajectory.txt groundtruth.txt --fixed-delta --delta 1"});

@@ -88,6 +88,9 @@ int main(int argc, char** argv) {
                    "PICTURE DIR...: show finished sequences in one picture, film nothing");
     app.add_option("--session", options.session, "of a scenario with several")
         ->capture_default_str();
+    app.add_flag_callback(
+        "--without-movers", [&] { options.movers = false; },
+        "the same film without what deceives the camera: movers, arm, dirt, flare");
     declareExamples(app,
                     {"rgbd-synth --list", "rgbd-synth office office --frames 100 --size 320x240"});
     declareCommonOptions(app);

@@ -55,6 +55,17 @@ TEST_F(FaultEval, options) {
     expectRefused("rpe %truth.txt %truth.txt --max-pairs -3", "--max-pairs");
 }
 
+TEST_F(FaultEval, masksAndMovers) {
+    expectRefused("masks %absent %absent", "absent' holds no masks");
+    expectRefused("masks %absent", "TRUE_DIR");
+    folder_.write("points.ply",
+                  "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n"
+                  "property float y\nproperty float z\nend_header\n0 0 0\n");
+    expectRefused("map %points.ply %points.ply --movers %truth.txt", "truth.txt:1");
+    expectRefused("map %points.ply %points.ply --beyond 0", "--beyond");
+    expectRefused("grid %truth.txt %points.ply", "truth.txt' describes no grid");
+}
+
 TEST_F(FaultEval, plots) {
     expectRefused("ate %truth.txt %truth.txt --plot %a.gif", ".png or .svg");
     expectRefused("ate %truth.txt %truth.txt --plot %absent/a.png", "absent/a.png");

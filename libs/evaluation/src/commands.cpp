@@ -84,6 +84,12 @@ auto evaluateAll(const TrajectoryRequest& request, Evaluate evaluate) {
     return evaluated;
 }
 
+/** \param file a movers.csv; empty: it is not known */
+std::optional<MoverWays> waysIn(const std::string& file) {
+    if (file.empty()) return std::nullopt;
+    return MoverWays(readMoverBoxes(file));
+}
+
 template <class Evaluated>
 std::string tableOf(const std::vector<Evaluated>& evaluated, const TrajectoryRequest& request) {
     std::vector<Report> reports;
@@ -179,9 +185,32 @@ std::string runMap(const MapRequest& request) {
     const PlyModel surface = readPly(request.surface);
     const auto sight = sightOf(request, surface);
     options.sight = sight ? &*sight : nullptr;
+    const auto movers = waysIn(request.movers);
+    options.movers = movers ? &*movers : nullptr;
     const auto accuracy = evaluateMap(readPly(request.map), surface, options);
     const std::string label = std::filesystem::path(request.map).stem();
     return format({reportOf(label, accuracy)}, request.format);
+}
+
+std::string runGrid(const GridRequest& request) {
+    GridAccuracyOptions options = request.options;
+    options.alignment = alignmentOf(request);
+    const auto movers = waysIn(request.movers);
+    options.movers = movers ? &*movers : nullptr;
+    const auto accuracy =
+        evaluateGrid(occupiedCells(request.map), readPly(request.surface), options);
+    const std::string label = std::filesystem::path(request.map).stem();
+    return format({reportOf(label, accuracy)}, request.format);
+}
+
+std::string runMasks(const MasksRequest& request) {
+    namespace fs = std::filesystem;
+    const fs::path movers =
+        fs::path(request.truth + "/").parent_path().parent_path() / "movers.csv";
+    const auto boxes =
+        fs::exists(movers) ? readMoverBoxes(movers.string()) : std::vector<MoverBox>();
+    const auto accuracy = evaluateMasks(request.estimated, request.truth, boxes, request.options);
+    return format({reportOf(labelsOf({request.estimated}).front(), accuracy)}, request.format);
 }
 
 }  // namespace rgbd_graphslam

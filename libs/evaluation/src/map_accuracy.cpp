@@ -12,7 +12,8 @@ using Points = std::vector<Eigen::Vector3d>;
 
 void check(const PlyModel& map, const MapAccuracyOptions& options) {
     if (map.vertices.empty()) throw Error("the map holds no points", "give another");
-    if (!(options.completeness_distance_m > 0) || !(options.sample_spacing_m > 0)) {
+    if (!(options.completeness_distance_m > 0) || !(options.sample_spacing_m > 0) ||
+        !(options.beyond_m > 0)) {
         throw Error("the distances of a map's evaluation must be positive", "give meters");
     }
 }
@@ -38,6 +39,17 @@ std::vector<double> distancesToSurface(const Points& points, const PlyModel& sur
     if (!surface.triangles.empty()) return distancesTo(TriangleTree(surface), points);
     const Points samples = alignedPoints(surface, {});
     return distancesTo(PointTree(samples), points);
+}
+
+/** Share of the points that are farther than allowed, and `counts` says count. */
+template <class Counts>
+double shareBeyond(const Points& points, const std::vector<double>& distances_m, double beyond_m,
+                   Counts counts) {
+    std::size_t beyond = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (distances_m[i] > beyond_m && counts(points[i])) ++beyond;
+    }
+    return static_cast<double>(beyond) / static_cast<double>(points.size());
 }
 
 /** Adds up how much of a surface is near the map. */
@@ -80,6 +92,13 @@ MapAccuracy evaluateMap(const PlyModel& map, const PlyModel& surface,
     MapAccuracy accuracy;
     accuracy.distance_m = statisticsOf(distances_m);
     accuracy.distance_95_m = percentileOf(distances_m, 0.95);
+    accuracy.beyond = shareBeyond(points, distances_m, options.beyond_m,
+                                  [](const Eigen::Vector3d&) { return true; });
+    if (options.movers) {
+        accuracy.on_movers_ways =
+            shareBeyond(points, distances_m, options.beyond_m,
+                        [&](const Eigen::Vector3d& p) { return options.movers->contains(p); });
+    }
     Coverage coverage(points, options.completeness_distance_m, options.sight);
     forEachSurfaceSample(surface, options.sample_spacing_m,
                          [&](const Eigen::Vector3d& p, double area) { coverage.sample(p, area); });

@@ -85,6 +85,10 @@ Report reportOf(const std::string& map, const MapAccuracy& accuracy) {
     const std::string distance = "distance_to_surface";
     addStatistics(distance, "m", accuracy.distance_m, report.figures);
     report.figures.push_back({distance + ".95_percent", accuracy.distance_95_m, "m"});
+    report.figures.push_back({"points_beyond", 100 * accuracy.beyond, "%", 3});
+    if (accuracy.on_movers_ways) {
+        report.figures.push_back({"points_on_movers_ways", 100 * *accuracy.on_movers_ways, "%", 3});
+    }
     report.figures.push_back({"completeness", 100 * accuracy.completeness, "%", 2});
     if (accuracy.completeness_of_seen) {
         report.figures.push_back(

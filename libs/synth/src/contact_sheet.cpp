@@ -49,21 +49,25 @@ std::string sequenceName(fs::path folder) {
     return name.size() < 3 && !parent.empty() ? parent + "/" + name : name;
 }
 
-cv::Mat sequenceRow(const std::string& folder) {
-    const auto colors = pictures(fs::path(folder) / "rgb");
-    const auto depths = pictures(fs::path(folder) / "depth");
-    cv::Mat row(kThumb.height, kThumb.width * (kColumns + 1), CV_8UC3);
-    for (int i = 0; i <= kColumns; ++i) {
-        const std::size_t at = (colors.size() - 1) * std::min(i, kColumns - 1) / (kColumns - 1);
-        const cv::Mat thumb = i < kColumns
-                                  ? thumbnail(cv::imread(colors[at]))
-                                  : depthThumbnail(depths[std::min(at, depths.size() - 1)]);
-        thumb.copyTo(row(cv::Rect(cv::Point(i * kThumb.width, 0), kThumb)));
-    }
+void addName(const std::string& folder, cv::Mat& row) {
     const std::string name = sequenceName(folder);
     cv::rectangle(row, cv::Rect(0, 0, 14 + 9 * static_cast<int>(name.size()), 22), {30, 30, 30},
                   cv::FILLED);
     cv::putText(row, name, {6, 16}, cv::FONT_HERSHEY_SIMPLEX, 0.5, {255, 255, 255}, 1, cv::LINE_AA);
+}
+
+/** Color pictures over time, then depth and, if wanted, the mask of the last. */
+cv::Mat sequenceRow(const std::string& folder, bool with_mask) {
+    const auto colors = pictures(fs::path(folder) / "rgb");
+    std::vector<cv::Mat> thumbs;
+    for (int i = 0; i < kColumns; ++i)
+        thumbs.push_back(thumbnail(cv::imread(colors[(colors.size() - 1) * i / (kColumns - 1)])));
+    thumbs.push_back(depthThumbnail(pictures(fs::path(folder) / "depth").back()));
+    if (with_mask)
+        thumbs.push_back(thumbnail(cv::imread(pictures(fs::path(folder) / "mask").back())));
+    cv::Mat row;
+    cv::hconcat(thumbs, row);
+    addName(folder, row);
     return row;
 }
 }  // namespace
@@ -71,7 +75,10 @@ cv::Mat sequenceRow(const std::string& folder) {
 void writeContactSheet(const std::vector<std::string>& folders, const std::string& path) {
     std::vector<cv::Mat> rows;
     rows.reserve(folders.size());
-    for (const std::string& folder : folders) rows.push_back(sequenceRow(folder));
+    const bool masks = std::all_of(folders.begin(), folders.end(), [](const std::string& folder) {
+        return fs::is_directory(fs::path(folder) / "mask");
+    });
+    for (const std::string& folder : folders) rows.push_back(sequenceRow(folder, masks));
     cv::Mat sheet;
     cv::vconcat(rows, sheet);
     writeAtomically(path, [&](const std::string& temporary) {

@@ -39,12 +39,17 @@ void Furnisher::floorAndCeiling(const Floor& floor, Covering covering) {
     const SE3 middle =
         standing((floor.min_x + floor.max_x) / 2, (floor.min_y + floor.max_y) / 2, 0, 0);
     const Skin ground{floors_[static_cast<int>(covering)]};
-    box(shifted(middle, 0, 0, -0.1), {width, length, 0.1}, BoxSkin(ground));
+    {
+        const Labeling as(scene_.quads, Label::Floor);
+        box(shifted(middle, 0, 0, -0.1), {width, length, 0.1}, BoxSkin(ground));
+    }
+    const Labeling as(scene_.quads, Label::Ceiling);
     box(shifted(middle, 0, 0, floor.height), {width, length, 0.1}, BoxSkin(Skin{ceiling_}));
 }
 
 void Furnisher::wall(const Vector2d& from, const Vector2d& to, double height, int paint,
                      const std::vector<Opening>& openings) {
+    const Labeling as(scene_.quads, Label::Wall);
     const double thickness = 0.12, length = (to - from).norm();
     const double yaw = std::atan2(to.y() - from.y(), to.x() - from.x()) - kPi / 2;
     const SE3 start = standing(from.x(), from.y(), 0, yaw);  // +y runs along the wall
@@ -73,6 +78,7 @@ void Furnisher::wall(const Vector2d& from, const Vector2d& to, double height, in
 }
 
 void Furnisher::ceilingLamp(double x, double y, double ceiling_z, double intensity) {
+    const Labeling as(scene_.quads, Label::Lamp);
     box(standing(x, y, ceiling_z - 0.05, 0), {0.35, 1.2, 0.05}, BoxSkin(Skin{lamp_}));
     scene_.lamps.push_back({{x, y, ceiling_z - 0.25}, intensity, {0.94, 1.0, 1.0}});
 }
@@ -80,14 +86,17 @@ void Furnisher::ceilingLamp(double x, double y, double ceiling_z, double intensi
 // ---- on a wall -----------------------------------------------------------------------------
 
 void Furnisher::poster(const SE3& frame, double width, double height) {
+    const Labeling as(scene_.quads, Label::Picture);
     panel(frame, width, height, 0.015, anyOf(posters_));
 }
 
 void Furnisher::art(const SE3& frame, double width, double height) {
+    const Labeling as(scene_.quads, Label::Picture);
     panel(frame, width, height, 0.035, anyOf(arts_));
 }
 
 void Furnisher::whiteboard(const SE3& frame) {
+    const Labeling as(scene_.quads, Label::Picture);
     panel(frame, 1.5, 0.95, 0.025, Skin{whiteboard_});
     box(shifted(frame, 0.05, 0, -0.03), {0.08, 1.2, 0.02}, BoxSkin(Skin{metals_[0]}));
     for (int i = 0; i < 4; ++i)
@@ -96,6 +105,7 @@ void Furnisher::whiteboard(const SE3& frame) {
 }
 
 void Furnisher::window(const SE3& frame, double width, double height, double intensity) {
+    const Labeling as(scene_.quads, Label::Window);
     panel(frame, width, height, 0.04, anyOf(windows_));
     box(shifted(frame, 0.1, 0, -0.04), {0.2, width + 0.1, 0.04}, BoxSkin(Skin{white_}));
     if (random_.chance(0.7)) plant(shifted(frame, 0.1, width * 0.3, 0), 0.35);
@@ -103,6 +113,7 @@ void Furnisher::window(const SE3& frame, double width, double height, double int
 }
 
 void Furnisher::door(const SE3& frame) {
+    const Labeling as(scene_.quads, Label::Door);
     panel(frame, 0.92, 2.05, 0.05, anyOf(doors_));
     for (double side : {-0.5, 0.5})
         box(shifted(frame, 0.04, side, 0), {0.08, 0.08, 2.1}, BoxSkin(Skin{woods_[2]}));
@@ -110,10 +121,12 @@ void Furnisher::door(const SE3& frame) {
 }
 
 void Furnisher::clock(const SE3& frame) {
+    const Labeling as(scene_.quads, Label::Picture);
     panel(frame, 0.3, 0.3, 0.04, Skin{clock_});
 }
 
 void Furnisher::radiator(const SE3& frame, double width) {
+    const Labeling as(scene_.quads, Label::Radiator);
     const int ribs = static_cast<int>(width / 0.08);
     for (int i = 0; i < ribs; ++i)
         box(shifted(frame, 0.08, -width / 2 + 0.08 * (i + 0.5), 0.12), {0.1, 0.055, 0.6},
@@ -122,6 +135,7 @@ void Furnisher::radiator(const SE3& frame, double width) {
 }
 
 void Furnisher::wallClutter(const SE3& frame, double width) {
+    const Labeling as(scene_.quads, Label::Picture);
     for (double y = -width / 2; y < width / 2 - 0.5;) {
         const double size = random_.uniform(0.35, 0.75), tall = size * random_.uniform(0.8, 1.45);
         const double z = random_.uniform(1.0, 1.3);
@@ -139,6 +153,7 @@ void Furnisher::wallClutter(const SE3& frame, double width) {
 // ---- on the floor --------------------------------------------------------------------------
 
 void Furnisher::table(const SE3& frame, const Vector3d& size) {
+    const Labeling as(scene_.quads, Label::Table);
     const Skin wood = anyOf(woods_), metal = anyOf(metals_);
     box(shifted(frame, 0, 0, size.z() - 0.035), {size.x(), size.y(), 0.035}, BoxSkin(wood));
     for (double x : {-0.5, 0.5})
@@ -148,6 +163,7 @@ void Furnisher::table(const SE3& frame, const Vector3d& size) {
 }
 
 void Furnisher::workplace(const SE3& frame, double width, bool chair_too) {
+    const Labeling as(scene_.quads, Label::Table);
     const double height = 0.74, depth = 0.8;
     table(frame, {depth, width, height});
     box(shifted(frame, -0.05, width / 2 - 0.3, 0), {0.6, 0.42, 0.62}, BoxSkin(anyOf(woods_)));
@@ -171,6 +187,7 @@ void Furnisher::workplace(const SE3& frame, double width, bool chair_too) {
 }
 
 void Furnisher::chair(const SE3& frame) {
+    const Labeling as(scene_.quads, Label::Chair);
     const Skin fabric = anyOf(fabrics_), metal{metals_[1]};
     box(shifted(frame, 0, 0, 0.43), {0.46, 0.46, 0.07}, BoxSkin(fabric));
     box(shifted(frame, -0.22, 0, 0.58), {0.06, 0.44, 0.42}, BoxSkin(fabric));
@@ -182,6 +199,7 @@ void Furnisher::chair(const SE3& frame) {
 }
 
 void Furnisher::bookRow(const SE3& frame, double width, double headroom) {
+    const Labeling as(scene_.quads, Label::Object);
     double y = -width / 2;
     while (y < width / 2 - 0.06) {
         if (random_.chance(0.06)) {
@@ -200,6 +218,7 @@ void Furnisher::bookRow(const SE3& frame, double width, double headroom) {
 }
 
 void Furnisher::packageRow(const SE3& frame, double width, double headroom) {
+    const Labeling as(scene_.quads, Label::Object);
     for (double y = -width / 2 + 0.12; y < width / 2 - 0.1; y += random_.uniform(0.2, 0.34)) {
         const double side = random_.uniform(0.1, 0.19);
         const double tall = std::min(headroom - 0.02, random_.uniform(0.1, 0.26));
@@ -215,6 +234,7 @@ void Furnisher::packageRow(const SE3& frame, double width, double headroom) {
 }
 
 void Furnisher::shelf(const SE3& frame, double width, double height, int boards) {
+    const Labeling as(scene_.quads, Label::Shelf);
     const double depth = 0.3, plank = 0.025;
     const Skin wood = anyOf(woods_);
     for (double side : {-0.5, 0.5})
@@ -236,6 +256,7 @@ void Furnisher::shelf(const SE3& frame, double width, double height, int boards)
 }
 
 void Furnisher::cabinet(const SE3& frame, double width, double height) {
+    const Labeling as(scene_.quads, Label::Cabinet);
     const Skin wood = anyOf(woods_);
     const int doors = std::max(1, static_cast<int>(std::lround(width / 0.5)));
     box(shifted(frame, 0.2, 0, 0), {0.4, width, height}, BoxSkin(wood));
@@ -250,6 +271,7 @@ void Furnisher::cabinet(const SE3& frame, double width, double height) {
 }
 
 void Furnisher::sofa(const SE3& frame, double width) {
+    const Labeling as(scene_.quads, Label::Sofa);
     const Skin fabric = anyOf(fabrics_), other = anyOf(fabrics_);
     box(shifted(frame, 0.42, 0, 0.08), {0.84, width, 0.32}, BoxSkin(fabric));
     box(shifted(frame, 0.12, 0, 0.4), {0.24, width, 0.42}, BoxSkin(fabric));
@@ -261,6 +283,7 @@ void Furnisher::sofa(const SE3& frame, double width) {
 }
 
 void Furnisher::plant(const SE3& frame, double height) {
+    const Labeling as(scene_.quads, Label::Plant);
     const double pot = height * 0.3;
     cylinder(frame, pot * 0.35, pot * 0.48, pot, anyOf(packages_), Skin{leaves_});
     for (int i = 0; i < 22; ++i) {
@@ -275,6 +298,7 @@ void Furnisher::plant(const SE3& frame, double height) {
 }
 
 void Furnisher::floorLamp(const SE3& frame) {
+    const Labeling as(scene_.quads, Label::Lamp);
     cylinder(frame, 0.15, 0.15, 0.03, Skin{metals_[1]}, Skin{metals_[1]});
     cylinder(frame, 0.015, 0.015, 1.5, Skin{metals_[1]}, Skin{metals_[1]});
     cylinder(shifted(frame, 0, 0, 1.45), 0.2, 0.13, 0.25, Skin{lamp_}, Skin{lamp_});
@@ -282,16 +306,19 @@ void Furnisher::floorLamp(const SE3& frame) {
 }
 
 void Furnisher::bin(const SE3& frame) {
+    const Labeling as(scene_.quads, Label::Bin);
     cylinder(frame, 0.11, 0.14, 0.32, anyOf(metals_), Skin{black_});
 }
 
 void Furnisher::rug(const SE3& frame, double length, double width) {
+    const Labeling as(scene_.quads, Label::Rug);
     BoxSkin skin(Skin{woods_[1]});
     skin.top = anyOf(rugs_);
     box(frame, {length, width, 0.012}, skin);
 }
 
 void Furnisher::cardboardPile(const SE3& frame, int count) {
+    const Labeling as(scene_.quads, Label::Box);
     double z = 0;
     for (int i = 0; i < count; ++i) {
         const double side = random_.uniform(0.3, 0.48), tall = random_.uniform(0.22, 0.36);
@@ -306,16 +333,19 @@ void Furnisher::cardboardPile(const SE3& frame, int count) {
 // ---- on a table ----------------------------------------------------------------------------
 
 void Furnisher::monitor(const SE3& frame) {
+    const Labeling as(scene_.quads, Label::Screen);
     box(frame, {0.18, 0.24, 0.015}, BoxSkin(Skin{black_}));
     box(shifted(frame, -0.03, 0, 0), {0.03, 0.06, 0.2}, BoxSkin(Skin{black_}));
     box(shifted(frame, 0, 0, 0.11), {0.035, 0.54, 0.34}, BoxSkin(anyOf(screens_), Skin{black_}));
 }
 
 void Furnisher::cup(const SE3& frame) {
+    const Labeling as(scene_.quads, Label::Object);
     cylinder(frame, 0.036, 0.042, 0.095, anyOf(packages_), Skin{black_});
 }
 
 void Furnisher::bookPile(const SE3& frame, int count) {
+    const Labeling as(scene_.quads, Label::Object);
     double z = 0;
     for (int i = 0; i < count; ++i) {
         const double thick = random_.uniform(0.018, 0.045);
@@ -328,6 +358,7 @@ void Furnisher::bookPile(const SE3& frame, int count) {
 }
 
 void Furnisher::papers(const SE3& frame, int count) {
+    const Labeling as(scene_.quads, Label::Object);
     for (int i = 0; i < count; ++i) {
         BoxSkin skin(Skin{white_});
         skin.bottom = kHidden;
@@ -339,6 +370,7 @@ void Furnisher::papers(const SE3& frame, int count) {
 }
 
 void Furnisher::package(const SE3& frame) {
+    const Labeling as(scene_.quads, Label::Object);
     const double side = random_.uniform(0.06, 0.15);
     const Skin skin = anyOf(packages_);
     box(frame, {side, side * random_.uniform(0.7, 1.4), random_.uniform(0.05, 0.22)},
@@ -374,6 +406,7 @@ MovingBody Furnisher::trunk(const Skin& shirt) {
     addCylinder(figure.quads, standing(0, 0, 1.44, 0), 0.06, 0.06, 0.08, Skin{face_}, Skin{face_});
     addCylinder(figure.quads, standing(0, 0, 1.5, -0.6), 0.085, 0.1, 0.25, Skin{face_},
                 Skin{face_, {0.4, 0}, {0.6, 0.2}});
+    label(figure.quads, Label::Person);
     return figure;
 }
 
@@ -384,6 +417,7 @@ MovingBody Furnisher::limb(double length, double thickness, const Skin& cloth, b
     if (with_shoe)
         addBox(scene_, figure.quads, standing(0.05, 0, -length, 0), {0.26, 0.1, 0.08},
                BoxSkin(Skin{black_}));
+    label(figure.quads, Label::Person);
     return figure;
 }
 

@@ -305,9 +305,12 @@ Scene plainRoom(std::uint64_t seed) {
         addBox(scene, scene.quads, standing(x, y, z, yaw), size, BoxSkin(Skin{paint}));
     };
     block(3, 2.5, 0, {6, 5, 0.1}, gray, -0.1);
+    label(scene.quads, Label::Floor);
     block(3, 2.5, 0, {6, 5, 0.1}, white, 2.6);
+    label(scene.quads, Label::Ceiling);
     for (double y : {-0.05, 5.05}) block(3, y, 0, {6, 0.1, 2.6}, white);
     for (double x : {-0.05, 6.05}) block(x, 2.5, 0, {0.1, 5, 2.6}, white);
+    label(scene.quads, Label::Wall);
     block(0.3, 0.3, 0, {0.6, 0.6, 2.6}, white);
     block(5.5, 4.3, 0, {0.5, 0.5, 2.6}, white);
     for (int step = 0; step < 4; ++step)
@@ -317,9 +320,11 @@ Scene plainRoom(std::uint64_t seed) {
     block(0.5, 2.9, 0.2, {0.6, 0.9, 1.1}, white);
     block(3.6, 0.35, 0, {1.2, 0.5, 1.5}, white);
     block(3.4, 0.3, 0.4, {0.35, 0.3, 0.4}, gray, 1.5);
+    label(scene.quads, Label::Pillar);
     for (const SE3& frame : {standing(0.01, 1.4, 1.1, 0), standing(1.6, 0.01, 1.3, kPi / 2),
                              standing(5.99, 3.2, 1.2, kPi), standing(4.0, 4.99, 1.2, -kPi / 2)})
         addRectangle(scene, scene.quads, frame, 0.3, 0.42, {scene.addMaterial(paintPaper(random))});
+    label(scene.quads, Label::Picture);
     scene.lamps = {{{1.6, 2.6, 2.4}, 0.5, {1, 1, 1}}, {{4.6, 1.8, 2.4}, 0.35, {0.9, 1, 1.05}}};
     return scene;
 }
@@ -335,6 +340,7 @@ Scene paintedWall(std::uint64_t seed) {
             addRectangle(scene, scene.quads, standing(0, width * (column - 8), height * row, 0),
                          width, height, {picture});
         }
+    label(scene.quads, Label::Picture);
     scene.lamps = {{{2.5, -2, 3.4}, 1, {1, 1, 1}}, {{2.5, 3, 3.0}, 0.8, {0.9, 1, 1.1}}};
     return scene;
 }

@@ -6,7 +6,9 @@
 #include <mrpt/opengl/opengl_api.h>
 
 #include <mrpt/core/exceptions.h>
+#include <array>
 #include <cmath>
+#include <opencv2/core.hpp>
 
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/synth/lighting.h"
@@ -63,6 +65,17 @@ void main() {
                  texture(textureSampler, uv).r + light.r < 1.0e9 ? 1.0 : 0.0);
 }
 )";
+// What is called the light is label and mask here, each divided by 255.
+const char* const kLabelShader = R"(#version 300 es
+precision highp float;
+uniform sampler2D textureSampler;
+in highp vec2 uv;
+in highp vec3 light;
+out vec4 color;
+void main() {
+    color = vec4(light, texture(textureSampler, uv).r < 1.0e9 ? 1.0 : 0.0);
+}
+)";
 constexpr double kDepthStep_m = kDepthRange_m / (1 << 24);
 
 /** Textured triangles whose picture is filtered properly: MRPT loads it without mipmaps, which
@@ -113,7 +126,8 @@ mrpt::poses::CPose3D toMrpt(const SE3& T) {
 /** Cuts faces into cells small enough for light to vary over them, one triangle list a material. */
 class Mesher {
   public:
-    Mesher(const Scene& scene, const Lighting& lighting) : scene_(scene), lighting_(lighting) {}
+    Mesher(const Scene& scene, const Lighting& lighting, const Eigen::Affine3d& lit_at)
+        : scene_(scene), lighting_(lighting), lit_at_(lit_at) {}
 
     void add(const Quad& quad, std::vector<mrpt::opengl::TTriangle>& triangles) const {
         const auto steps = [](const Vector3d& edge) {
@@ -171,12 +185,13 @@ class Mesher {
 
     Vector3d lightAt(const Quad& quad, const Vector3d& point) const {
         const double glow = scene_.materials[quad.material].glow;
-        const Vector3d light = lighting_.at(point, quad.normal());
+        const Vector3d light = lighting_.at(lit_at_ * point, lit_at_.linear() * quad.normal());
         return Vector3d::Constant(glow) + (1 - glow) * light;
     }
 
     const Scene& scene_;
     const Lighting& lighting_;
+    const Eigen::Affine3d lit_at_;
 };
 
 std::shared_ptr<FilteredTriangles> toObject(const Material& material,
@@ -187,56 +202,88 @@ std::shared_ptr<FilteredTriangles> toObject(const Material& material,
     for (const auto& triangle : triangles) object->insertTriangle(triangle);
     return object;
 }
+/** Faces whose vertices carry label and mask. */
+std::shared_ptr<FilteredTriangles> toLabels(const std::vector<Quad>& quads, bool masked) {
+    std::vector<mrpt::opengl::TTriangle> triangles;
+    for (const Quad& quad : quads) {
+        std::array<mrpt::opengl::TTriangle::Vertex, 4> vertices;
+        for (int i = 0; i < 4; ++i) {
+            const Eigen::Vector3f at = quad.corners[i].cast<float>();
+            vertices[i].xyzrgba.pt = {at.x(), at.y(), at.z()};
+            vertices[i].normal = {static_cast<float>(quad.label) / 255, masked ? 1.f : 0.f, 0};
+        }
+        for (int last : {2, 3}) {
+            triangles.emplace_back();
+            triangles.back().vertices = {vertices[0], vertices[last - 1], vertices[last]};
+        }
+    }
+    return toObject({cv::Mat(1, 1, CV_8UC3, cv::Scalar::all(0))}, triangles);
+}
+
+using Objects = std::vector<mrpt::opengl::CRenderizable::Ptr>;
+
+void prepare(mrpt::opengl::COpenGLScene& scene) {
+    const auto view = scene.getViewport();
+    view->setViewportClipDistances(kNear_m, kFar_m);
+    view->setCustomBackgroundColor({0, 0, 0, 0});
+    view->loadDefaultShaders();
+}
 }  // namespace
 
 struct Renderer::Impl {
     Impl(const Scene& scene, const Camera& camera);
-    void addQuads(const Scene& scene, const Lighting& lighting, const std::vector<Quad>& quads,
-                  std::vector<mrpt::opengl::CRenderizable::Ptr>& objects);
-    cv::Mat draw(const SE3& T_world_cam, const Vector2d& shift_px,
-                 const mrpt::opengl::Program::Ptr& program);
+    Objects addQuads(const Scene& scene, const Lighting& lighting, const MovingBody& body);
+    void addLabels(const Scene& scene);
+    cv::Mat draw(mrpt::opengl::COpenGLScene& scene, const SE3& T_world_cam,
+                 const Vector2d& shift_px, const mrpt::opengl::Program::Ptr& program);
 
     Camera camera_;
     mrpt::opengl::CFBORender buffer_;
-    mrpt::opengl::COpenGLScene scene_;
-    std::vector<std::vector<mrpt::opengl::CRenderizable::Ptr>> figures_;
-    mrpt::opengl::Program::Ptr color_, depth_;
+    mrpt::opengl::COpenGLScene scene_, label_scene_;
+    std::vector<Objects> figures_;  // of both scenes
+    mrpt::opengl::Program::Ptr color_, depth_, label_;
     mrpt::img::CImage picture_;
 };
 
 Renderer::Impl::Impl(const Scene& scene, const Camera& camera)
     : camera_(camera), buffer_(camera.width, camera.height) {
-    const auto view = scene_.getViewport();
-    view->setViewportClipDistances(kNear_m, kFar_m);
-    view->setCustomBackgroundColor({0, 0, 0, 0});
-    view->loadDefaultShaders();
+    prepare(scene_);
+    prepare(label_scene_);
     color_ = linked(kColorShader);
     depth_ = linked(kDepthShader);
+    label_ = linked(kLabelShader);
 
     const Lighting lighting(scene);
-    std::vector<mrpt::opengl::CRenderizable::Ptr> still;
-    addQuads(scene, lighting, scene.quads, still);
-    for (const MovingBody& figure : scene.figures) {
-        figures_.emplace_back();
-        addQuads(scene, lighting, figure.quads, figures_.back());
-    }
+    addQuads(scene, lighting, {scene.quads});
+    for (const MovingBody& figure : scene.figures)
+        figures_.push_back(addQuads(scene, lighting, figure));
+    addLabels(scene);
 }
 
-void Renderer::Impl::addQuads(const Scene& scene, const Lighting& lighting,
-                              const std::vector<Quad>& quads,
-                              std::vector<mrpt::opengl::CRenderizable::Ptr>& objects) {
+Objects Renderer::Impl::addQuads(const Scene& scene, const Lighting& lighting,
+                                 const MovingBody& body) {
     std::vector<std::vector<mrpt::opengl::TTriangle>> triangles(scene.materials.size());
-    const Mesher mesher(scene, lighting);
-    for (const Quad& quad : quads) mesher.add(quad, triangles[quad.material]);
+    const Mesher mesher(scene, lighting, body.lit_at);
+    for (const Quad& quad : body.quads) mesher.add(quad, triangles[quad.material]);
+    Objects objects;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         if (triangles[i].empty()) continue;
         objects.push_back(toObject(scene.materials[i], triangles[i]));
         scene_.getViewport()->insert(objects.back());
     }
+    return objects;
 }
 
-cv::Mat Renderer::Impl::draw(const SE3& T_world_cam, const Vector2d& shift_px,
-                             const mrpt::opengl::Program::Ptr& program) {
+void Renderer::Impl::addLabels(const Scene& scene) {
+    label_scene_.getViewport()->insert(toLabels(scene.quads, false));
+    for (std::size_t i = 0; i < figures_.size(); ++i) {
+        figures_[i].push_back(toLabels(scene.figures[i].quads, true));
+        label_scene_.getViewport()->insert(figures_[i].back());
+    }
+}
+
+cv::Mat Renderer::Impl::draw(mrpt::opengl::COpenGLScene& scene, const SE3& T_world_cam,
+                             const Vector2d& shift_px, const mrpt::opengl::Program::Ptr& program) {
     mrpt::img::TCamera intrinsics;
     intrinsics.ncols = camera_.width;
     intrinsics.nrows = camera_.height;
@@ -248,9 +295,9 @@ cv::Mat Renderer::Impl::draw(const SE3& T_world_cam, const Vector2d& shift_px,
     eye.set6DOFMode(true);
     eye.setProjectiveFromPinhole(intrinsics);
     eye.setPose(toMrpt(T_world_cam));
-    buffer_.setCamera(scene_, eye);
-    scene_.getViewport()->shaders()[kShader] = program;
-    buffer_.render_RGB(scene_, picture_);
+    buffer_.setCamera(scene, eye);
+    scene.getViewport()->shaders()[kShader] = program;
+    buffer_.render_RGB(scene, picture_);
     return picture_.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
 }
 
@@ -274,11 +321,11 @@ void Renderer::placeFigure(int index, const SE3& T_world_figure) {
 }
 
 cv::Mat Renderer::color(const SE3& T_world_cam, const Vector2d& shift_px) {
-    return impl_->draw(T_world_cam, shift_px, impl_->color_).clone();
+    return impl_->draw(impl_->scene_, T_world_cam, shift_px, impl_->color_).clone();
 }
 
 cv::Mat Renderer::depth(const SE3& T_world_cam, const Vector2d& shift_px) {
-    const cv::Mat coded = impl_->draw(T_world_cam, shift_px, impl_->depth_);
+    const cv::Mat coded = impl_->draw(impl_->scene_, T_world_cam, shift_px, impl_->depth_);
     cv::Mat depth(coded.size(), CV_32FC1);
     for (int v = 0; v < coded.rows; ++v) {
         const auto* from = coded.ptr<cv::Vec3b>(v);
@@ -288,6 +335,14 @@ cv::Mat Renderer::depth(const SE3& T_world_cam, const Vector2d& shift_px) {
                                        ((from[u][2] << 16) + (from[u][1] << 8) + from[u][0]));
     }
     return depth;
+}
+
+LabelPicture Renderer::labels(const SE3& T_world_cam) {
+    const cv::Mat coded = impl_->draw(impl_->label_scene_, T_world_cam, {0, 0}, impl_->label_);
+    LabelPicture picture;
+    cv::extractChannel(coded, picture.label, 2);
+    cv::extractChannel(coded, picture.mask, 1);
+    return picture;
 }
 
 }  // namespace rgbd_graphslam::synth

@@ -12,6 +12,11 @@ Vector3d normalVector(Random& random) {
     return {x, y, z};
 }
 
+SE3 inertialPose(const Motion& motion, double t) {
+    const SE3 pose = motion.T_world_cam(t);
+    return motion.T_inertial_world ? motion.T_inertial_world(t) * pose : pose;
+}
+
 double heading(const SE3& pose) {
     return std::atan2(pose.R(1, 0), pose.R(0, 0));
 }
@@ -19,8 +24,8 @@ double heading(const SE3& pose) {
 
 InertialReading trueInertial(const Motion& motion, double t) {
     const double step = 2e-3;
-    const SE3 before = motion.T_world_cam(t - step), now = motion.T_world_cam(t),
-              after = motion.T_world_cam(t + step);
+    const SE3 before = inertialPose(motion, t - step), now = inertialPose(motion, t),
+              after = inertialPose(motion, t + step);
     const Vector3d acceleration = (after.t - 2 * now.t + before.t) / (step * step);
     const Vector3d gravity(0, 0, -9.81);
     return {now.R.transpose() * (acceleration - gravity),

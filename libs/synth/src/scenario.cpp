@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "deceits.h"
+#include "filming.h"
 #include "places.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/synth/random.h"
@@ -13,14 +15,6 @@ namespace {
 using Eigen::Vector3d;
 const double kPi = std::acos(-1.0);
 
-/** A camera's automatic exposure hunts slowly by some per cent. */
-Exposure drifting(double t) {
-    Exposure exposure;
-    exposure.brightness =
-        1 + 0.08 * std::sin(2 * kPi * t / 11) + 0.05 * std::sin(2 * kPi * t / 4.3 + 1);
-    return exposure;
-}
-
 /** The lights go out between 4 and 6 s and come on again after 11 s; the camera opens its shutter
  *  for as long as 30 Hz lets it and turns its amplifier up. */
 Exposure failingLight(double t) {
@@ -31,21 +25,6 @@ Exposure failingLight(double t) {
     exposure.gain = 1 + 3 * dark;
     exposure.shutter_s += 0.020 * dark;
     return exposure;
-}
-
-/** Eye and gaze on ellipses about a point, the gaze ahead of the eye; one round. */
-Motion strollAround(const Vector3d& center, double radius_x, double radius_y, double seconds,
-                    double ahead_rad, std::uint64_t seed) {
-    const int count = 12;
-    std::vector<Vector3d> eyes, targets;
-    for (int i = 0; i < count; ++i) {
-        const double angle = 2 * kPi * i / count, gaze = angle + ahead_rad;
-        eyes.push_back(center + Vector3d(radius_x * std::cos(angle), radius_y * std::sin(angle),
-                                         0.12 * std::sin(2 * angle)));
-        targets.push_back(center + Vector3d(3.2 * std::cos(gaze), 2.6 * std::sin(gaze),
-                                            -0.5 + 0.15 * std::cos(3 * angle)));
-    }
-    return handHeld({eyes, seconds / count, true}, {targets, seconds / count, true}, {}, seed);
 }
 
 /** Control points of a walk and of its gaze, one pair every `spacing` meters. */
@@ -187,7 +166,8 @@ World dynamic(int, std::uint64_t seed) {
             person == 0
                 ? std::vector<Vector3d>{{1.6, 1.9, 0}, {4.9, 1.9, 0}, {4.9, 3.3, 0}, {1.6, 3.3, 0}}
                 : std::vector<Vector3d>{{4.4, 3.1, 0}, {2.2, 2.3, 0}, {3.3, 1.9, 0}};
-        addWalker(Walker(way, person == 0 ? 0.9 : 0.7), world.figure_poses);
+        addWalker(Walker(way, person == 0 ? 0.9 : 0.7), "person " + std::to_string(person + 1),
+                  world.movers);
     }
     world.exposure = drifting;
     std::vector<Vector3d> eyes, targets;
@@ -228,6 +208,17 @@ const std::vector<Scenario>& scenarios() {
         {"dark", "the office while the light fails: little contrast, noise and blur", 1, 450, dark},
         {"long-run", "planar robot that patrols two rooms for as long as is asked", 1, 3600,
          longRun},
+        crowd(),
+        followMe(),
+        door(),
+        chairMoved(),
+        pushedCart(),
+        startsInCrowd(),
+        lift(),
+        underDesk(),
+        ceilingLamp(),
+        armInView(),
+        dirtyLens(),
     };
     return all;
 }

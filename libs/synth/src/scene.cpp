@@ -27,6 +27,11 @@ int Scene::addMaterial(const cv::Mat& image, double tile_m, double glow) {
     return static_cast<int>(materials.size()) - 1;
 }
 
+void label(std::vector<Quad>& quads, Label label, std::size_t first) {
+    for (std::size_t i = first; i < quads.size(); ++i)
+        if (quads[i].label == Label::None) quads[i].label = label;
+}
+
 void addRectangle(const Scene& scene, std::vector<Quad>& quads, const SE3& frame, double width,
                   double height, const Skin& skin) {
     Quad quad;

@@ -48,13 +48,17 @@ class Film {
     void shoot(int frame) {
         shootColor(frame, colorStamp(options_, frame));
         shootDepth(frame, depthStamp(options_, frame));
+        shootLabels(colorStamp(options_, frame));
     }
     void finish() { jobs_.finish(); }
 
   private:
-    void placeFigures(double t) {
-        for (std::size_t i = 0; i < world_.figure_poses.size(); ++i)
-            renderer_.placeFigure(static_cast<int>(i), world_.figure_poses[i](t));
+    void placeMovers(double t, Mover::SeenBy camera) {
+        for (std::size_t i = 0; i < world_.movers.size(); ++i) {
+            const Mover& mover = world_.movers[i];
+            const bool seen = mover.seen_by == Mover::SeenBy::Both || mover.seen_by == camera;
+            renderer_.placeFigure(static_cast<int>(i), seen ? mover.pose(t) : outOfSight());
+        }
     }
 
     /** Pixels that the picture of a point 1.5 m ahead travels between two times. */
@@ -72,13 +76,15 @@ class Film {
         cv::Mat sum = cv::Mat::zeros(camera_.height, camera_.width, CV_32FC3);
         for (int i = 0; i < count; ++i) {
             const double at = begin + shutter_s * (i + 0.5) / count;
-            placeFigures(at);
+            placeMovers(at, Mover::SeenBy::Color);
             // A rank-1 lattice spreads the shifts evenly over the pixel.
             const Eigen::Vector2d shift((i + 0.5) / count - 0.5,
                                         std::fmod(0.618034 * (i + 0.5), 1.0) - 0.5);
             cv::accumulate(renderer_.color(world_.motion.T_world_cam(at), shift), sum);
         }
-        return sum * (1.0 / count);
+        cv::Mat picture = sum * (1.0 / count);
+        if (world_.lens) world_.lens->spoil(picture, world_.motion.T_world_cam(t), camera_);
+        return picture;
     }
 
     /** A picture whose rows are of different moments, if the shutter rolls: put together of bands
@@ -122,7 +128,7 @@ class Film {
             seen = cv::Mat::zeros(camera_.height, camera_.width, CV_32FC1);
         else
             seen = rolled(t, [&](double at) {
-                placeFigures(at);
+                placeMovers(at, Mover::SeenBy::Depth);
                 return renderer_.depth(world_.motion.T_world_cam(at),
                                        {options_.registration_error_px, 0});
             });
@@ -132,6 +138,30 @@ class Film {
             const cv::Mat readings =
                 options.noise ? senseDepth(seen, camera, DepthSensorModel{}, random) : seen;
             writePicture(path, toDepthUnits(readings));
+        });
+    }
+
+    /** Label and mask of a time as channels of one picture. */
+    cv::Mat labeled(double t) {
+        const SE3 T_world_cam = world_.motion.T_world_cam(t);
+        placeMovers(t, Mover::SeenBy::Depth);
+        LabelPicture picture = renderer_.labels(T_world_cam);
+        if (world_.lens) world_.lens->mark(picture.mask, T_world_cam, camera_);
+        cv::Mat both;
+        cv::merge(std::vector<cv::Mat>{picture.label, picture.mask}, both);
+        return both;
+    }
+
+    void shootLabels(double stamp) {
+        const double t = stamp - kFirstStamp_s;
+        const cv::Mat seen = isCovered(world_, t)
+                                 ? cv::Mat(camera_.height, camera_.width, CV_8UC2, {0, 255})
+                                 : rolled(t, [&](double at) { return labeled(at); });
+        jobs_.add([=, folder = folder_] {
+            std::vector<cv::Mat> channels;
+            cv::split(seen, channels);
+            writePicture(folder + "/" + pictureName("label", stamp), channels[0]);
+            writePicture(folder + "/" + pictureName("mask", stamp), channels[1]);
         });
     }
 
@@ -167,6 +197,12 @@ World seenFrom(const std::array<double, 6>& mount, World world) {
 
 bool isMounted(const std::array<double, 6>& mount) {
     return mount != std::array<double, 6>{};
+}
+
+World worldOf(const Scenario& scenario, const FilmOptions& options) {
+    World world = scenario.build(options.session, options.seed);
+    if (isMounted(options.mount)) world = seenFrom(options.mount, std::move(world));
+    return options.movers ? world : withoutMovers(world);
 }
 
 void makeEmptyFolder(const std::string& folder) {
@@ -221,16 +257,17 @@ FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std
             "it has " + std::to_string(scenario.sessions));
     const int frames = options.frames > 0 ? options.frames : scenario.frames;
     makeEmptyFolder(folder);
-    makeWritableFolder(folder + "/rgb");
-    makeWritableFolder(folder + "/depth");
-    World world = scenario.build(options.session, options.seed);
-    if (isMounted(options.mount)) world = seenFrom(options.mount, std::move(world));
+    for (const char* kind : {"rgb", "depth", "label", "mask"})
+        makeWritableFolder(folder + "/" + kind);
+    const World world = worldOf(scenario, options);
     const Scene scene = world.scene();
     writeSurface(folder + "/surface.ply", scene);
     const Camera camera = synthCamera(options.width, options.height);
     writeCameraIni(folder, camera.intrinsics(), static_cast<bool>(world.motion.T_world_base),
                    options.mount);
     writeMotionFiles(folder, options, world.motion, frames);
+    writeLabelsIni(folder + "/labels.ini");
+    writeMovers(folder + "/movers.csv", options, world.movers, scene.figures, frames);
 
     Film shooting(world, scene, options, folder);
     Progress progress("filming " + scenario.name, frames);

@@ -80,6 +80,27 @@ void writeOdometry(const std::string& path, const FilmOptions& options, const Mo
     });
 }
 
+/** A body's extent in its own axes. */
+Eigen::AlignedBox3d extentOf(const MovingBody& body) {
+    Eigen::AlignedBox3d box;
+    for (const Quad& quad : body.quads)
+        for (const Eigen::Vector3d& corner : quad.corners) box.extend(corner);
+    return box;
+}
+
+std::string moverLine(double stamp_s, const Mover& mover, const Eigen::AlignedBox3d& box) {
+    const double t = stamp_s - kFirstStamp_s, step = 0.01;
+    const SE3 pose = mover.pose(t);
+    const Eigen::Vector3d center = pose * box.center(), size = box.sizes();
+    const Eigen::Vector3d moved =
+        mover.pose(t + step) * box.center() - mover.pose(t - step) * box.center();
+    const Eigen::Quaterniond q = pose.quaternion();
+    return formatted("%.6f,%s,%d,%.4f,%.4f,%.4f,%.4f,%.6f,%.6f,%.6f,%.6f,%.4f,%.4f,%.4f\n", stamp_s,
+                     mover.name.c_str(), mover.carried ? 1 : 0, moved.norm() / (2 * step),
+                     center.x(), center.y(), center.z(), q.x(), q.y(), q.z(), q.w(), size.x(),
+                     size.y(), size.z());
+}
+
 template <class Value>
 void put(std::ostream& out, Value value) {
     out.write(reinterpret_cast<const char*>(&value), sizeof value);
@@ -127,6 +148,29 @@ void writeCameraIni(const std::string& folder, const Intrinsics& camera, bool on
                       at.y() + mount[1], at.z() + mount[2], mount[3], mount[4], mount[5]);
     text += "imu_pose = [0 0 0 -90 0 -90]\n";  // the optical frame
     writeTextAtomically(folder + "/camera.ini", text);
+}
+
+void writeLabelsIni(const std::string& path) {
+    std::string text = "; values of label/*.png; 0: no class\n";
+    for (const LabelClass& each : labelClasses())
+        text += formatted("\n[%d]\nname = %s\ncolor = [%d %d %d]\n", static_cast<int>(each.label),
+                          each.name.c_str(), each.color[0], each.color[1], each.color[2]);
+    writeTextAtomically(path, text);
+}
+
+void writeMovers(const std::string& path, const FilmOptions& options,
+                 const std::vector<Mover>& movers, const std::vector<MovingBody>& bodies,
+                 int frames) {
+    std::vector<Eigen::AlignedBox3d> boxes;
+    for (const MovingBody& body : bodies) boxes.push_back(extentOf(body));
+    writeStream(path, [&](std::ostream& out) {
+        out << "stamp_s,name,carried,speed_m_s,x_m,y_m,z_m,qx,qy,qz,qw,size_x_m,size_y_m,size_z_"
+               "m\n";
+        for (int frame = 0; frame < frames; frame += options.every)
+            for (std::size_t i = 0; i < movers.size(); ++i)
+                if (!movers[i].name.empty())
+                    out << moverLine(colorStamp(options, frame), movers[i], boxes[i]);
+    });
 }
 
 void writeSurface(const std::string& path, const Scene& scene) {

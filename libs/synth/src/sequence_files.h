@@ -9,7 +9,7 @@ namespace rgbd_graphslam::synth {
 /** Time 0 of a motion, in stamps (s). */
 constexpr double kFirstStamp_s = 1000;
 
-/** `rgb/1000.033333.png` for a stamp. \param kind "rgb" or "depth" */
+/** `rgb/1000.033333.png` for a stamp. \param kind the folder, e.g. "rgb" */
 std::string pictureName(const char* kind, double stamp_s);
 
 void writePictureLists(const std::string& folder, const FilmOptions& options, int frames);
@@ -19,6 +19,13 @@ void writeMotionFiles(const std::string& folder, const FilmOptions& options, con
 /** \param mount as FilmOptions::mount */
 void writeCameraIni(const std::string& folder, const Intrinsics& camera, bool on_robot,
                     const std::array<double, 6>& mount);
+/** Names and colors of the values of label pictures. */
+void writeLabelsIni(const std::string& path);
+/** Boxes of the movers at the stamps of color pictures.
+ *  \param bodies of the movers, in the same order */
+void writeMovers(const std::string& path, const FilmOptions& options,
+                 const std::vector<Mover>& movers, const std::vector<MovingBody>& bodies,
+                 int frames);
 /** The faces that stand still, as triangles, binary PLY. */
 void writeSurface(const std::string& path, const Scene& scene);
 

@@ -33,10 +33,14 @@ SE3 Walker::arm(double t, int side) const {
     return joint(t, {0, 0.26 * side, 1.43}, -0.4 * side * std::sin(2 * kPi * steps_hz_ * t));
 }
 
-void addWalker(const Walker& walker, std::vector<std::function<SE3(double)>>& poses) {
-    poses.emplace_back([walker](double t) { return walker.trunk(t); });
-    for (int side : {-1, 1}) poses.emplace_back([=](double t) { return walker.leg(t, side); });
-    for (int side : {-1, 1}) poses.emplace_back([=](double t) { return walker.arm(t, side); });
+void addWalker(const Walker& walker, const std::string& name, std::vector<Mover>& movers,
+               double start_s) {
+    const auto add = [&](const std::function<SE3(double)>& pose) {
+        movers.push_back({name, [=](double t) { return pose(t + start_s); }, std::nullopt});
+    };
+    add([walker](double t) { return walker.trunk(t); });
+    for (int side : {-1, 1}) add([=](double t) { return walker.leg(t, side); });
+    for (int side : {-1, 1}) add([=](double t) { return walker.arm(t, side); });
 }
 
 }  // namespace rgbd_graphslam::synth

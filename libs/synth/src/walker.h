@@ -1,9 +1,10 @@
 /** People who walk about. */
 #pragma once
-#include <functional>
+#include <string>
 #include <vector>
 
 #include "rgbd_graphslam/synth/motion.h"
+#include "rgbd_graphslam/synth/mover.h"
 
 namespace rgbd_graphslam::synth {
 
@@ -22,7 +23,9 @@ class Walker {
     double steps_hz_;
 };
 
-/** Appends the poses of trunk, two legs and two arms, as addPerson adds the figures. */
-void addWalker(const Walker& walker, std::vector<std::function<SE3(double)>>& poses);
+/** Appends trunk, two legs and two arms, in the order in which Furnisher::person() adds them.
+ *  \param start_s how long the walk has lasted at time 0 */
+void addWalker(const Walker& walker, const std::string& name, std::vector<Mover>& movers,
+               double start_s = 0);
 
 }  // namespace rgbd_graphslam::synth

@@ -47,6 +47,23 @@ TEST(MapAccuracy, completenessIsTheShareOfTheAreaThatIsCovered) {
     EXPECT_GT(accuracy.surface_samples, 10000u);
 }
 
+TEST(MapAccuracy, tellsTheShareOfPointsFarFromTheSurfaceAndOnMoversWays) {
+    PlyModel map;
+    map.vertices = {{0.5f, 0.5f, 0}, {0.5f, 0.5f, 0.09f}, {0.5f, 0.5f, 0.2f}, {0.1f, 0.1f, 0.5f}};
+    MoverBox box;
+    box.T_world_box.t = {0.5, 0.5, 0};
+    box.size_m = {0.2, 0.2, 1};
+    box.speed_m_s = 1;
+    const MoverWays ways({box});
+    MapAccuracyOptions options;
+    EXPECT_FALSE(evaluateMap(map, square(), options).on_movers_ways);
+    options.movers = &ways;
+    EXPECT_EQ(evaluateMap(map, square(), options).beyond, 0.5);
+    EXPECT_EQ(evaluateMap(map, square(), options).on_movers_ways.value(), 0.25);
+    options.beyond_m = 0.05;
+    EXPECT_EQ(evaluateMap(map, square(), options).beyond, 0.75);
+}
+
 TEST(MapAccuracy, completenessDoesNotDependOnHowTheSurfaceIsCut) {
     PlyModel slivers = square();
     // The covered half as two triangles, the other as many thin ones.

@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
@@ -54,10 +56,11 @@ class Sequence : public testing::Test {
 
 TEST_F(Sequence, HasAllTheFilesOfTheBenchmark) {
     const auto files = filesBelow(filmed("long-run", "robot"));
-    for (const char* name : {"rgb.txt", "depth.txt", "groundtruth.txt", "accelerometer.txt",
-                             "gyroscope.txt", "odometry.txt", "camera.ini", "surface.ply"})
+    for (const char* name :
+         {"rgb.txt", "depth.txt", "groundtruth.txt", "accelerometer.txt", "gyroscope.txt",
+          "odometry.txt", "camera.ini", "surface.ply", "labels.ini", "movers.csv"})
         EXPECT_EQ(files.count(name), 1u) << name;
-    EXPECT_EQ(files.size(), 8u + 6u);
+    EXPECT_EQ(files.size(), 10u + 4u * 3u);
 }
 
 TEST_F(Sequence, SameSeedSameBytesOtherSeedOtherBytes) {
@@ -105,7 +108,7 @@ TEST_F(Sequence, EveryOtherFrameIsTheSameFrame) {
     const auto all = filesBelow(filmed("no-structure", "all"));
     options_.every = 2;
     const auto some = filesBelow(filmed("no-structure", "some"));
-    EXPECT_EQ(some.size(), all.size() - 4);
+    EXPECT_EQ(some.size(), all.size() - 8);
     for (const auto& [name, bytes] : some) {
         if (name.find(".png") == std::string::npos) continue;
         EXPECT_EQ(all.at(name), bytes) << name;
@@ -146,6 +149,64 @@ TEST_F(Sequence, SurfaceHoldsWhatIsSeen) {
     EXPECT_GT(faces, 100);
     const std::size_t body = ply.find("end_header\n") + 11;
     EXPECT_EQ(ply.size(), body + 12u * vertices + 13u * faces);
+}
+
+/** The first picture of a folder of a sequence. */
+cv::Mat firstOf(const std::string& folder, const char* kind) {
+    std::vector<std::string> paths;
+    for (const auto& entry : fs::directory_iterator(folder + "/" + kind))
+        paths.push_back(entry.path().string());
+    return cv::imread(*std::min_element(paths.begin(), paths.end()), cv::IMREAD_UNCHANGED);
+}
+
+TEST_F(Sequence, MaskIsWhereTheFilmWithoutMoversDiffers) {
+    options_.noise = false;
+    const std::string with = filmed("crowd", "with");
+    options_.movers = false;
+    const std::string without = filmed("crowd", "without");
+    EXPECT_EQ(filesBelow(with).at("groundtruth.txt"), filesBelow(without).at("groundtruth.txt"));
+    const cv::Mat mask = firstOf(with, "mask"), label = firstOf(with, "label");
+    ASSERT_EQ(mask.type(), CV_8UC1);
+    EXPECT_GT(cv::countNonZero(mask), 0.1 * mask.total());
+    EXPECT_EQ(cv::countNonZero(firstOf(without, "mask")), 0);
+    EXPECT_EQ(cv::countNonZero((label == static_cast<int>(Label::Person)) != (mask == 255)), 0);
+    const cv::Mat differs = firstOf(with, "depth") != firstOf(without, "depth");
+    EXPECT_EQ(cv::countNonZero(differs & (mask == 0)), 0);
+    EXPECT_GT(cv::countNonZero(differs & mask), 0.99 * cv::countNonZero(mask));
+}
+
+TEST_F(Sequence, MaskOfALensIsWhereItHidesTheScene) {
+    options_.noise = false;
+    const std::string with = filmed("dirty-lens", "with");
+    options_.movers = false;
+    const std::string without = filmed("dirty-lens", "without");
+    const cv::Mat mask = firstOf(with, "mask");
+    EXPECT_GT(cv::countNonZero(mask), 0.03 * mask.total());
+    EXPECT_LT(cv::countNonZero(mask), 0.5 * mask.total());
+    cv::Mat difference;
+    cv::absdiff(firstOf(with, "rgb"), firstOf(without, "rgb"), difference);
+    EXPECT_GT(cv::mean(difference, mask)[0], 5 * cv::mean(difference, mask == 0)[0]);
+    EXPECT_EQ(filesBelow(with).at("depth/1000.000000.png"),
+              filesBelow(without).at("depth/1000.000000.png"));
+}
+
+TEST_F(Sequence, LabelsNameWhatIsSeen) {
+    const std::string folder = filmed("low-texture", "labels");
+    const cv::Mat label = firstOf(folder, "label");
+    ASSERT_EQ(label.type(), CV_8UC1);
+    for (const Label each : {Label::Wall, Label::Floor, Label::Pillar})
+        EXPECT_GT(cv::countNonZero(label == static_cast<int>(each)), 0);
+    EXPECT_EQ(cv::countNonZero(label == 0), 0);
+    const std::string ini = filesBelow(folder).at("labels.ini");
+    EXPECT_NE(ini.find("[1]\nname = wall\ncolor = ["), std::string::npos);
+}
+
+TEST_F(Sequence, MoversFileTellsTheirBoxes) {
+    const std::string movers = filesBelow(filmed("pushed-cart", "cart")).at("movers.csv");
+    EXPECT_EQ(std::count(movers.begin(), movers.end(), '\n'), 1 + 3 * 6);
+    EXPECT_NE(movers.find(",cart,0,0.0000,"), std::string::npos);
+    const std::string none = filesBelow(filmed("office", "none")).at("movers.csv");
+    EXPECT_EQ(std::count(none.begin(), none.end(), '\n'), 1);
 }
 
 TEST_F(Sequence, AFolderThatIsNotEmptyIsAnError) {

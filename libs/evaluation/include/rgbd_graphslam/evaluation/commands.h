@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "rgbd_graphslam/evaluation/grid_accuracy.h"
+#include "rgbd_graphslam/evaluation/mask_accuracy.h"
 #include "rgbd_graphslam/evaluation/plots.h"
 #include "rgbd_graphslam/evaluation/point_cloud.h"
 #include "rgbd_graphslam/evaluation/report.h"
@@ -84,7 +86,23 @@ std::optional<SurfaceSight> sightOf(const SurfaceRequest& request, const PlyMode
 /** Arguments of `rgbd-eval map`. */
 struct MapRequest : SurfaceRequest {
     MapAccuracyOptions options;
+    std::string movers;  // a movers.csv; empty: it is not known where things moved
 };
 std::string runMap(const MapRequest& request);
+
+/** The map is a grid.yaml. */
+struct GridRequest : SurfaceRequest {
+    GridAccuracyOptions options;
+    std::string movers;  // as above
+};
+std::string runGrid(const GridRequest& request);
+
+/** Folders of masks; a movers.csv beside the true folder tells the movers' speeds. */
+struct MasksRequest {
+    std::string estimated, truth;
+    MaskAccuracyOptions options;
+    ReportFormat format = ReportFormat::Text;
+};
+std::string runMasks(const MasksRequest& request);
 
 }  // namespace rgbd_graphslam

@@ -44,6 +44,9 @@ struct Motion {
     std::function<SE3(double)> T_world_cam;
     /** Of a planar robot that carries the camera; empty when a hand does. */
     std::function<SE3(double)> T_world_base;
+    /** Where the world is itself carried, as the cabin of a lift is: its pose in a frame that is
+     *  not. Inertial sensors feel this motion, wheels do not. Empty: it is not carried. */
+    std::function<SE3(double)> T_inertial_world;
 };
 
 /** A camera carried along `positions` that looks at a moving target.

@@ -8,6 +8,12 @@
 
 namespace rgbd_graphslam::synth {
 
+/** What each pixel shows, CV_8UC1. */
+struct LabelPicture {
+    cv::Mat label;  // values of Label
+    cv::Mat mask;   // 255: one of the scene's figures
+};
+
 /** Draws with mrpt::opengl::CFBORender, which needs no display. All calls must come from the thread
  *  that made the object. */
 class Renderer {
@@ -29,6 +35,8 @@ class Renderer {
      *  0.02 mm: it is coded into the colors, because MRPT's own depth comes from a buffer of
      *  16 bits (up to 1 mm off at 4 m). */
     cv::Mat depth(const SE3& T_world_cam, const Eigen::Vector2d& shift_px = {0, 0});
+
+    LabelPicture labels(const SE3& T_world_cam);
 
   private:
     struct Impl;

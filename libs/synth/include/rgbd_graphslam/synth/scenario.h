@@ -1,10 +1,13 @@
 /** The scenarios: a place, a motion through it and what makes it hard. */
 #pragma once
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "rgbd_graphslam/synth/lens_effect.h"
 #include "rgbd_graphslam/synth/motion.h"
+#include "rgbd_graphslam/synth/mover.h"
 #include "rgbd_graphslam/synth/scene.h"
 
 namespace rgbd_graphslam::synth {
@@ -22,11 +25,20 @@ struct World {
     std::function<Scene()> scene;
     Motion motion;
     std::function<Exposure(double t)> exposure;
-    /** Pose of each of the scene's figures at a time. */
-    std::vector<std::function<SE3(double)>> figure_poses;
+    /** One for each of the scene's figures. */
+    std::vector<Mover> movers;
+    /** Null: nothing between scene and sensor. */
+    std::shared_ptr<const LensEffect> lens;
+    /** The scene of the same film without movers, where more differs than the movers; empty: the
+     *  same scene. */
+    std::function<Scene()> scene_without_movers;
     /** Times [from, to) at which the camera is covered. */
     std::vector<std::pair<double, double>> covered;
 };
+
+/** The same world without what deceives: movers are gone or rest, nothing is before the lens, the
+ *  world is not carried. */
+World withoutMovers(const World& world);
 
 /** A scenario by name, and how to build its world. */
 struct Scenario {

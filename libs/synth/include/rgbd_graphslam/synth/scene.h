@@ -1,11 +1,12 @@
 /** What there is to be seen: textured quadrilaterals, in meters, z up, floor at z = 0. */
 #pragma once
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
 #include "rgbd_graphslam/geometry/se3.h"
+#include "rgbd_graphslam/synth/labels.h"
 
 namespace rgbd_graphslam::synth {
 
@@ -24,6 +25,7 @@ struct Quad {
     std::array<Eigen::Vector3d, 4> corners;
     std::array<Eigen::Vector2d, 4> uv;  // (0, 0) top left of the image, (1, 1) bottom right
     int material = 0;
+    Label label = Label::None;
 
     Eigen::Vector3d normal() const {
         return (corners[2] - corners[0]).cross(corners[3] - corners[1]).normalized();
@@ -56,6 +58,9 @@ struct Lamp {
 /** Faces that move together, in a frame of their own. */
 struct MovingBody {
     std::vector<Quad> quads;
+    /** Where its faces take their light from the scene: light is baked and does not change as the
+     *  body moves. Maps the body's coordinates to the world. */
+    Eigen::Affine3d lit_at = Eigen::Affine3d::Identity();
 };
 
 /** All that a renderer needs. */
@@ -68,6 +73,25 @@ struct Scene {
     double ambient = 0.55;
 
     int addMaterial(const cv::Mat& image, double tile_m = 0, double glow = 0);
+};
+
+/** Gives a label to all faces from `first` on that have none. */
+void label(std::vector<Quad>& quads, Label label, std::size_t first = 0);
+
+/** Labels the faces that are appended during its life and have no label at its end: what is put
+ *  together of things with labels of their own keeps those. */
+class Labeling {
+  public:
+    Labeling(std::vector<Quad>& quads, Label label)
+        : quads_(quads), label_(label), first_(quads.size()) {}
+    ~Labeling() { label(quads_, label_, first_); }
+    Labeling(const Labeling&) = delete;
+    Labeling& operator=(const Labeling&) = delete;
+
+  private:
+    std::vector<Quad>& quads_;
+    Label label_;
+    std::size_t first_;
 };
 
 /** Appends a rectangle. `frame` maps its own coordinates to the scene: it spans y in [0, width]

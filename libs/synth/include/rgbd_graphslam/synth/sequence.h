@@ -26,6 +26,8 @@ struct FilmOptions {
     /** Another camera of the same rig: where it sits on the scenario's, whose axes are x forward, y
      *  left, z up. [x y z yaw pitch roll] in m and degrees. */
     std::array<double, 6> mount{};
+    /** false: the same film without what deceives a camera, see withoutMovers(). */
+    bool movers = true;
 };
 
 /** The camera of a sequence: 525 pixels of focal length at 640 x 480, scaled to other widths. */
@@ -49,9 +51,11 @@ struct FilmSummary {
 FilmSummary summary(const World& world, int frames);
 
 /** Renders all frames and writes rgb/, depth/, rgb.txt, depth.txt, groundtruth.txt,
- *  accelerometer.txt, gyroscope.txt, odometry.txt (planar robots only), camera.ini and surface.ply.
- *  The bytes depend on scenario and options alone. Memory does not grow with the frames.
- *  \throws Error when the folder holds frames already or cannot be written */
+ *  accelerometer.txt, gyroscope.txt, odometry.txt (planar robots only), camera.ini, surface.ply,
+ *  and what is known of each color picture under its name: mask/ (255 where it shows what moves by
+ *  itself or belongs to lens or carrier) and label/ (classes, named in labels.ini); movers.csv
+ * tells where the movers were. The bytes depend on scenario and options alone. Memory does not grow
+ * with the frames. \throws Error when the folder holds frames already or cannot be written */
 FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std::string& folder);
 
 }  // namespace rgbd_graphslam::synth

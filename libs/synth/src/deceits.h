@@ -1,0 +1,19 @@
+/** Scenarios in which something deceives the camera, each in a file of its own. */
+#pragma once
+#include "rgbd_graphslam/synth/scenario.h"
+
+namespace rgbd_graphslam::synth {
+
+Scenario crowd();
+Scenario followMe();
+Scenario door();
+Scenario chairMoved();
+Scenario pushedCart();
+Scenario startsInCrowd();
+Scenario lift();
+Scenario underDesk();
+Scenario ceilingLamp();
+Scenario armInView();
+Scenario dirtyLens();
+
+}  // namespace rgbd_graphslam::synth
