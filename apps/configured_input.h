@@ -18,7 +18,7 @@ class ConfiguredInput {
     const std::vector<CLI::Option*>& options() const { return options_; }
 
     /** Empty where the command line names none.
-     *  \throws Error when it names two */
+     *  \throws Error when it names two, or several inputs */
     std::string ini() const;
     /** Empty where the command line names none. */
     std::string input() const;

@@ -23,7 +23,8 @@ Images grab(int frame) {
         cv::resize(tiles, wall, {1280, 640}, 0, 0, cv::INTER_NEAREST);
     }
     const int shift_px = 4 * frame, distance_mm = 1968;
-    return {wall({shift_px, 0, 640, 480}).clone(), cv::Mat(480, 640, CV_16UC1, distance_mm)};
+    return {wall(cv::Rect(shift_px, 0, 640, 480)).clone(),
+            cv::Mat(480, 640, CV_16UC1, distance_mm)};
 }
 
 int main() {

@@ -5,6 +5,7 @@
 #include <rgbd_graphslam/dataset/rawlog_reader.h>
 #include <rgbd_graphslam/graphslam/live_slam.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <thread>

@@ -3,15 +3,23 @@
 # every file has to include what it uses.
 option(RGBD_FAST_BUILD "Compile several sources at a time" ON)
 
-# These have local names in common with their neighbors, and are compiled by themselves. A file that
-# is refused with "redefinition of" belongs here.
+# These share local names with other sources of their library and are compiled by themselves. A file
+# that is refused here ("redefinition of ...") but not by the preset developer belongs to them.
 set(rgbd_separate_sources
-    free_space.cpp motion.cpp navigation_map.cpp nerfstudio.cpp octree_builder.cpp orb_pattern.cpp
-    patch.cpp picture_marks.cpp places.cpp plot_curve.cpp rgbd_observation.cpp rpe.cpp
-    surface_nets.cpp surface_spread.cpp map_adjustment.cpp view_scale.cpp
-    cpu_budget_test.cpp drive_test.cpp frame_stream_test.cpp graph_slam_session_test.cpp
-    list_forms_test.cpp mouse_gesture_test.cpp occupancy_volume_test.cpp replay_clock_test.cpp
-    run_checks_test.cpp saved_slam_test.cpp se3_properties_test.cpp slam_job_test.cpp)
+    accelerometer_check.cpp camera_file.cpp colmap.cpp depth_view.cpp distance_volume.cpp
+    fast_detector.cpp floor.cpp framing.cpp free_space.cpp furniture.cpp gyroscope_check.cpp
+    intrinsics_file.cpp kept_frames.cpp keyframe_alignment.cpp keyframe_sheet.cpp lag_check.cpp
+    level_survey.cpp map_accuracy.cpp map_adjustment.cpp mcap_file.cpp motion.cpp
+    navigation_map.cpp nerfstudio.cpp numbered_files.cpp octree_builder.cpp orb_extractor.cpp
+    panel_set.cpp picture_marks.cpp places.cpp plot_curve.cpp replay.cpp rgbd_observation.cpp
+    rolling_shutter.cpp ros_images.cpp rpe.cpp scenario.cpp scene_overlay.cpp sensor_watch.cpp
+    sequence_archive.cpp signed_axes.cpp surface_nets.cpp surface_spread.cpp textured_mesh.cpp
+    weak_tracker.cpp
+    camera_file_test.cpp camera_properties_test.cpp cpu_budget_test.cpp drive_test.cpp
+    folders_test.cpp framing_test.cpp graph_slam_session_test.cpp list_forms_test.cpp
+    live_run_test.cpp marked_picture_test.cpp mesh_test.cpp mouse_gesture_test.cpp
+    occupancy_volume_test.cpp picking_test.cpp pose_graph_test.cpp replay_clock_test.cpp
+    run_checks_test.cpp saved_slam_test.cpp sequence_layout_test.cpp slam_job_test.cpp)
 
 # rgbd_build_fast(TARGET files...): `files` are the sources of the target.
 function(rgbd_build_fast target)

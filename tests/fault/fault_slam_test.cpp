@@ -114,7 +114,10 @@ TEST_F(FaultSlam, settingsGivenTwice) {
 }
 
 TEST_F(FaultSlam, moreThanOneRawlog) {
-    expectRefused(slam(inQuotes(folder_ / "b.rawlog")), "b.rawlog");
+    const std::string b = folder_ / "b.rawlog";
+    expectRefused(slam(inQuotes(b)), b + "' cannot be worked on at once");
+    expectRefused(runProgram("rgbd-slam", inQuotes(rawlog_) + " " + inQuotes(b) + " -o out"),
+                  "'" + rawlog_ + "' and '" + b + "' cannot be worked on at once");
 }
 
 TEST_F(FaultSlam, missingRawlog) {

@@ -37,7 +37,7 @@ std::optional<Vector2d> lampPixel(const Eigen::Vector3d& lamp, const SE3& T_worl
 }
 
 Vector2d ghostPixel(const Ghost& ghost, const Vector2d& lamp, const Camera& camera) {
-    const Vector2d middle(camera.cx, camera.cy);
+    const Vector2d middle = camera.fromPlane(Vector2d::Zero());
     return middle + ghost.place * (lamp - middle);
 }
 
