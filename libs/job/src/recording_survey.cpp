@@ -29,7 +29,7 @@ void RecordingSurvey::add(const mrpt::obs::CObservation3DRangeScan::Ptr& observa
     const RgbdImage image = colorAndDepth(observation);
     depth_unit_m_ = image.depth_unit_m;
     depths_.add(image.depth);
-    focal_length_px_ = Camera(cameraOf(*observation)).pixelsPerRadian().x();
+    focal_length_px_ = CameraModel(cameraOf(*observation)).pixelsPerRadian().x();
     if (!image.color.empty()) registration_.add(image.color, image.depth);
 }
 
