@@ -29,9 +29,8 @@ Images grab(int frame) {
 
 int main() {
     CameraSetup setup;
-    setup.camera =
-        Camera{640, 480, 525, 525, 319.5, 239.5, {}};  // size, fx, fy, cx, cy, distortion
-    setup.depth_units = 1000;                          // per meter
+    setup.camera = {640, 480, 525, 525, 319.5, 239.5, {}};  // size, fx, fy, cx, cy, lens
+    setup.depth_units = 1000;                               // per meter
 
     try {
         GraphSlamSession session(SlamOptions(), *makeRgbdObservation(setup, 0));

@@ -1,10 +1,10 @@
-# A full build at half the CPU time: sources are compiled some at a time, so that the headers they share
-# are parsed once. The presets for developers switch it off; there a change rebuilds one file only, and
-# every file has to include what it uses.
-option(RGBD_FAST_BUILD "Compile several sources at a time" ON)
+# For full builds with less CPU time: sources are compiled some at a time, so that the headers they share
+# are parsed once. Off by default, since then a change rebuilds one file only, and every file has to
+# include what it uses.
+option(RGBD_FAST_BUILD "Compile several sources at a time" OFF)
 
 # These share local names with other sources of their library and are compiled by themselves. A file
-# that is refused here ("redefinition of ...") but not by the preset developer belongs to them.
+# that is refused with this option ("redefinition of ...") and not without it belongs to them.
 set(rgbd_separate_sources
     accelerometer_check.cpp camera_file.cpp colmap.cpp depth_view.cpp distance_volume.cpp
     fast_detector.cpp floor.cpp framing.cpp free_space.cpp furniture.cpp gyroscope_check.cpp

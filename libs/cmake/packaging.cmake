@@ -21,10 +21,10 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_SHLIBDEPS ON)
 # gnuplot draws the plots of rgbd-eval; EGL and Mesa draw the viewer's pictures without a display.
 set(CPACK_DEBIAN_RUNTIME_PACKAGE_RECOMMENDS "gnuplot-nox, libegl1, libgl1-mesa-dri")
-set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "RGB-D SLAM for mobile robots on MRPT
- Takes recordings of RGB-D cameras such as Kinect and RealSense and produces the
- camera trajectory, a loop-closed pose graph, and 3-D and navigation maps. Tools
- to import, evaluate, view and export are included.")
+set(CPACK_COMPONENT_RUNTIME_DESCRIPTION
+"Takes recordings of RGB-D cameras such as Kinect and RealSense and produces the
+camera trajectory, a loop-closed pose graph, and 3-D and navigation maps. Tools
+to import, evaluate, view and export are included.")
 
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME librgbd-graphslam-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
@@ -32,9 +32,9 @@ string(CONCAT CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
     "libmrpt-graphslam-dev, libmrpt-nav-dev, libmrpt-nanogui-dev, libeigen3-dev, libopencv-dev, "
     "libceres-dev, liboctomap-dev, nlohmann-json3-dev, libarchive-dev, libsqlite3-dev, "
     "zlib1g-dev, libcurl4-openssl-dev, libglfw3-dev, libgl-dev, libopengl-dev")
-set(CPACK_COMPONENT_DEV_DESCRIPTION "RGB-D SLAM for mobile robots on MRPT (development files)
- Headers, static libraries and CMake targets to embed RGB-D SLAM in programs:
- find_package(rgbd_graphslam), then link to rgbd_graphslam::graphslam.")
+set(CPACK_COMPONENT_DEV_DESCRIPTION
+"Headers, static libraries and CMake targets to embed RGB-D SLAM in programs:
+find_package(rgbd_graphslam), then link to rgbd_graphslam::graphslam.")
 
 # What Debian's policy wants of every package: a copyright file and a changelog.
 string(TIMESTAMP date "%a, %d %b %Y 00:00:00 +0000" UTC)
