@@ -28,7 +28,7 @@ PoseEdge falseLoop(const VisualSlam& slam, int keyframe) {
 
 class LoopInjector {
   public:
-    LoopInjector(const Camera& camera, bool lies) : slam_(options(), camera), lies_(lies) {}
+    LoopInjector(const CameraModel& camera, bool lies) : slam_(options(), camera), lies_(lies) {}
 
     void step(const RgbdImage& image) {
         const TrackedFrame tracked = slam_.track(slam_.prepare(image));

@@ -109,7 +109,7 @@ TEST_P(MapOfEvenFrames, anyFrameIsRecognizedAlone) {
     const SparseMap map = readSparseMap(folder_ / "even/map.sparse");
     FrameStream stream(std::make_unique<RawlogSource>(folder_ / "odd.rawlog"), ReadAhead());
     const SlamOptions options;
-    const Camera camera = cameraOf(stream.firstFrame());
+    const CameraModel camera = cameraOf(stream.firstFrame());
     const VisualSlam extractor(options, camera);
     stream.start([&](const auto& images) { return extractor.prepare(images); });
     const auto even = readTumTrajectory(folder_ / "even/trajectory.txt");

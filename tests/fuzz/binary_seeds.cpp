@@ -65,7 +65,8 @@ SparseMap smallMap() {
     loop.from = 0;
     loop.to = 1;
     loop.information = Eigen::Matrix<double, 6, 6>::Identity();
-    return {takeSnapshot(map, rigOf(Camera{}), 1.25, {loop}), SE3(), "hash", {{"/a.rawlog", 0}}};
+    return {
+        takeSnapshot(map, rigOf(CameraModel{}), 1.25, {loop}), SE3(), "hash", {{"/a.rawlog", 0}}};
 }
 
 template <class Tree>

@@ -51,9 +51,9 @@ class RandomInputs {
         return delta;
     }
     /** Of any size, seeing 45 to 70 degrees, with a lens as they are sold: none folds the image. */
-    Camera camera() {
+    CameraModel camera() {
         for (;;) {
-            const Camera camera = anyCamera();
+            const CameraModel camera = anyCamera();
             if (camera.isInvertible()) return camera;
         }
     }

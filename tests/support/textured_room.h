@@ -31,7 +31,7 @@ class TexturedRoom {
 
     /** \param T_world_base of the robot, which is the sensor here */
     mrpt::obs::CObservation3DRangeScan::Ptr film(const SE3& T_world_base, double stamp_s) const {
-        const Camera camera = setup_.camera;
+        const CameraModel camera = setup_.camera;
         cv::Mat color(camera.height, camera.width, CV_8UC3);
         cv::Mat depth(camera.height, camera.width, CV_16UC1);
         const SE3 T_world_cam = T_world_base * T_optical_from_mrpt.inverse();

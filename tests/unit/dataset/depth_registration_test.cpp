@@ -24,7 +24,7 @@ double cast(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction) {
 }
 
 /** What a camera at T_color_cam sees of it. */
-cv::Mat1w film(const Camera& camera, const SE3& T_color_cam) {
+cv::Mat1w film(const CameraModel& camera, const SE3& T_color_cam) {
     cv::Mat1w depth(camera.height, camera.width, std::uint16_t{0});
     for (int v = 0; v < camera.height; ++v) {
         for (int u = 0; u < camera.width; ++u) {

@@ -132,7 +132,7 @@ TEST_F(ImportPlausibility, calibrationOfLargerImagesIsResized) {
     camera(128, 96);
     add(noise(64, 48, 0), readings(64, 48, 0, 500, 4000));
     EXPECT_THAT(import().notes, Contains(HasSubstr("is for 128x96, the images have 64x48")));
-    const Camera camera = cameraOf(*frames().at(0));
+    const Intrinsics camera = cameraOf(*frames().at(0));
     EXPECT_EQ(camera.width, 64);
     EXPECT_EQ(camera.fx, 64);
     EXPECT_EQ(camera.cx, 31.5);
@@ -212,7 +212,7 @@ TEST_F(ImportPlausibility, depthOfTwoCamerasInARawlogIsRegistered) {
     import();
     const auto frame = frames().at(0);
     frame->cameraParams.setIntrinsicParamsFromValues(40, 40, 31.5, 23.5);
-    const Camera depth = toCamera(frame->cameraParams), color = cameraOf(*frame);
+    const Intrinsics depth = toCamera(frame->cameraParams), color = cameraOf(*frame);
     const SE3 T_color_depth(Eigen::Matrix3d::Identity(), {-0.02, 0, 0});
     frame->relativePoseIntensityWRTDepth =
         toCPose3D(T_optical_from_mrpt.inverse() * T_color_depth.inverse());

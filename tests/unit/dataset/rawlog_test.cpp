@@ -172,7 +172,7 @@ TEST_F(RawlogTest, mrptProjectsDepthToTheSamePlaces) {
                   "sensor_pose = [0.1 0 0.6 0 10 0]\n");
     import();
     const auto frame = framesOf(rawlog()).front();
-    const Camera camera = cameraOf(*frame);
+    const CameraModel camera = cameraOf(*frame);
     const SE3 T_base_cam = cameraOnRobot(*frame);
     mrpt::obs::T3DPointsProjectionParams parameters;
     parameters.takeIntoAccountSensorPoseOnRobot = true;

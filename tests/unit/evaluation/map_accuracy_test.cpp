@@ -151,13 +151,13 @@ TEST(SurfaceSight, endsAtTheImageTheRangeAndWhatStandsBefore) {
     surface.vertices.insert(surface.vertices.end(),
                             {{0, 0, 0.5f}, {0.4f, 0, 0.5f}, {0, 0.4f, 0.5f}});
     surface.triangles.push_back({4, 5, 6});  // hides a corner
-    const SurfaceSight sight(surface, Camera(), aboveAt(2));
+    const SurfaceSight sight(surface, CameraModel(), aboveAt(2));
     EXPECT_TRUE(sight.sees({0.5, 0.5, 0}));
     EXPECT_TRUE(sight.sees({0.1, 0.1, 0.5}));
     EXPECT_FALSE(sight.sees({0.05, 0.05, 0}));
-    EXPECT_FALSE(SurfaceSight(surface, Camera(), aboveAt(6)).sees({0.5, 0.5, 0}));
-    EXPECT_FALSE(SurfaceSight(surface, Camera(), aboveAt(0.5)).sees({0.99, 0.5, 0}));
-    EXPECT_THROW(SurfaceSight(gridAt(0), Camera(), aboveAt(2)), Error);
+    EXPECT_FALSE(SurfaceSight(surface, CameraModel(), aboveAt(6)).sees({0.5, 0.5, 0}));
+    EXPECT_FALSE(SurfaceSight(surface, CameraModel(), aboveAt(0.5)).sees({0.99, 0.5, 0}));
+    EXPECT_THROW(SurfaceSight(gridAt(0), CameraModel(), aboveAt(2)), Error);
 }
 
 TEST(SurfaceSight, leavesOutWhatIsSeenTooFlat) {
@@ -165,10 +165,10 @@ TEST(SurfaceSight, leavesOutWhatIsSeenTooFlat) {
     options.max_incidence_deg = 20;  // reaches tan(20 deg) * 2 m = 0.73 m around the middle
     PlyModel wide = square();
     for (auto& vertex : wide.vertices) vertex.head<2>() = 4 * vertex.head<2>().array() - 1.5f;
-    const SurfaceSight sight(wide, Camera(), aboveAt(2), options);
+    const SurfaceSight sight(wide, CameraModel(), aboveAt(2), options);
     EXPECT_TRUE(sight.sees({0.5 + 0.70, 0.5, 0}));
     EXPECT_FALSE(sight.sees({0.5 + 0.76, 0.5, 0}));
-    EXPECT_TRUE(SurfaceSight(wide, Camera(), aboveAt(2)).sees({0.5 + 0.76, 0.5, 0}));
+    EXPECT_TRUE(SurfaceSight(wide, CameraModel(), aboveAt(2)).sees({0.5 + 0.76, 0.5, 0}));
 }
 
 TEST(MapAccuracy, completenessOfSeenLeavesOutWhatWasHidden) {
@@ -178,7 +178,7 @@ TEST(MapAccuracy, completenessOfSeenLeavesOutWhatWasHidden) {
     }
     surface.triangles.push_back({4, 5, 6});
     surface.triangles.push_back({4, 6, 7});
-    const SurfaceSight sight(surface, Camera(), aboveAt(3));
+    const SurfaceSight sight(surface, CameraModel(), aboveAt(3));
     MapAccuracyOptions options;
     options.sight = &sight;
     const auto accuracy = evaluateMap(gridAt(0), surface, options);

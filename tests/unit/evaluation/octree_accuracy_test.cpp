@@ -68,7 +68,7 @@ TEST(OctreeAccuracy, weighsTheSeenSurfaceByItsAreaInTheVoxels) {
     Trajectory before(1);  // looks along +x at the middle of the wall
     before[0].T_world_cam.R = Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5).toRotationMatrix();
     before[0].T_world_cam.t = {-1.5, 0.5, 0.5};
-    const SurfaceSight sight(wall(), Camera(), before);
+    const SurfaceSight sight(wall(), CameraModel(), before);
     EXPECT_FALSE(evaluateOctree(tree, wall(), {}, 0.01).seen);
     const auto seen = evaluateOctree(tree, wall(), {}, 0.001, &sight).seen;
     ASSERT_TRUE(seen);

@@ -9,7 +9,7 @@
 namespace rgbd_graphslam {
 namespace {
 
-Camera smallCamera() {
+CameraModel smallCamera() {
     Intrinsics camera;
     camera.width = 4;
     camera.height = 3;
@@ -68,7 +68,7 @@ TEST(PointCloud, optionsLeaveOutPoints) {
 }
 
 TEST(PointCloud, refusesAnImageOfAnotherSize) {
-    PointCloudBuilder builder(Camera{}, {});
+    PointCloudBuilder builder(CameraModel{}, {});
     EXPECT_THROW(builder.add(emptyImage(), {}), Error);
 }
 

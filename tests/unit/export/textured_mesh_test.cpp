@@ -39,7 +39,7 @@ void addWall(PlyModel& mesh, float x0, float y0, float x1, float y1, float z_m, 
     }
 }
 
-Camera smallCamera() {
+CameraModel smallCamera() {
     Intrinsics camera;
     camera.width = 160;
     camera.height = 120;
@@ -78,7 +78,7 @@ TEST(TextureBuilder, putsEachPixelWhereItWasSeen) {
     PlyModel mesh;
     addWall(mesh, -0.5f, -0.4f, 0.5f, 0.4f, 1, 20);
     TextureBuilder builder(mesh, 1024);
-    const Camera camera = smallCamera();
+    const CameraModel camera = smallCamera();
     builder.addView(3, camera, {}, depthOf(1), unit_m);
     builder.plan();
     EXPECT_EQ(builder.coveredShare(), 1);

@@ -18,7 +18,7 @@ RgbdImage plainImage(int width = 640, int height = 480) {
 TEST(DenseView, isTheMeanOfEachBlock) {
     RgbdImage image = plainImage();
     image.gray(cv::Rect(8, 16, 4, 8)) = 200;  // half of block (1, 2)
-    const DenseView view = DenseViewBuilder(Camera{}).build(image);
+    const DenseView view = DenseViewBuilder(CameraModel{}).build(image);
     ASSERT_EQ(view.camera.width, 80);
     ASSERT_EQ(view.camera.height, 60);
     EXPECT_FLOAT_EQ(view.gray[0], 100);
@@ -31,15 +31,15 @@ TEST(DenseView, depthIsThatOfTheNearerSurface) {
     RgbdImage image = plainImage();
     image.depth(cv::Rect(0, 0, 8, 4)) = 1500;  // upper half of the first block
     image.depth(cv::Rect(8, 0, 8, 5)) = 0;     // most of the second
-    const DenseView view = DenseViewBuilder(Camera{}).build(image);
+    const DenseView view = DenseViewBuilder(CameraModel{}).build(image);
     EXPECT_FLOAT_EQ(view.depth_m[0], 1.5f);
     EXPECT_EQ(view.depth_m[1], 0);
 }
 
 /** A point seen at a pixel of the full image is seen at the matching place of the small one. */
 TEST(DenseView, cameraSeesTheSameRays) {
-    const Camera full;
-    const Camera small = full.shrunk(8);
+    const CameraModel full;
+    const CameraModel small = full.shrunk(8);
     const Eigen::Vector3d ray = full.unproject(323.5, 227.5, 1);  // center of block (40, 28)
     EXPECT_LT((small.project(ray) - Eigen::Vector2d(40, 28)).norm(), 1e-9);
 }
@@ -65,7 +65,7 @@ TEST(DenseView, smallImagesAreTakenAsTheyAre) {
 TEST(DenseView, halvingKeepsTheNearestSurface) {
     RgbdImage image = plainImage();
     image.depth(cv::Rect(0, 0, 8, 8)) = 1000;
-    const DenseView half = halved(DenseViewBuilder(Camera{}).build(image));
+    const DenseView half = halved(DenseViewBuilder(CameraModel{}).build(image));
     EXPECT_EQ(half.camera.width, 40);
     EXPECT_FLOAT_EQ(half.depth_m[0], 1);
     EXPECT_FLOAT_EQ(half.depth_m[1], 2);

@@ -62,7 +62,7 @@ TEST(ForegroundDepth, isNoneWithFewReadingsOrOutOfRange) {
 }
 
 TEST(FrameBuilder, refusesImagesOfAnotherSizeOrType) {
-    const FrameBuilder builder({}, Camera{});
+    const FrameBuilder builder({}, CameraModel{});
     RgbdImage image;
     image.gray = cv::Mat::zeros(480, 640, CV_8UC1);
     image.depth = cv::Mat::zeros(240, 320, CV_16UC1);

@@ -48,7 +48,7 @@ TEST(KeyframeGraph, firstRobotPoseIsTheOrigin) {
 
 TEST(KeyframeGraph, losesTheEdgesOfLoopsThatTheSlamDropped) {
     KeyframeGraph graph;
-    graph.shared->slam = std::make_unique<VisualSlam>(SlamOptions{}, Camera{});
+    graph.shared->slam = std::make_unique<VisualSlam>(SlamOptions{}, CameraModel{});
     PoseEdge edge = someEdge();
     const auto insert = [&](int from, int to, EdgeKind kind) {
         edge.from = from;

@@ -18,7 +18,7 @@ SparseMap smallMap() {
     for (int k = 0; k < 3; ++k) map.addKeyframe(frame, SE3());
     for (int i = 0; i < 20; ++i) map.addLandmark({0.1 * i, 0, 2}, i % 3, i);
     SparseMap sparse;
-    sparse.snapshot = takeSnapshot(map, rigOf(Camera{}), 1.25, {});
+    sparse.snapshot = takeSnapshot(map, rigOf(CameraModel{}), 1.25, {});
     sparse.T_up_world.t = {1, 2, 3};
     sparse.config_hash = "0123456789abcdef";
     sparse.sessions = {{"/data/monday.rawlog", 0}, {"/data/tuesday.rawlog", 2}};

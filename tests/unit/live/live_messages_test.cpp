@@ -66,8 +66,8 @@ TEST(LiveMessages, imagesAreEveryOtherPixel) {
     EXPECT_EQ(frame.depth.at<std::uint16_t>(100, 50), 1000 + 10 * 200 + 100);
     EXPECT_EQ(frame.color.at<cv::Vec3b>(120, 160), cv::Vec3b(127, 127, 90));
     // A ray through the same place of the world.
-    const Camera camera = imageCamera(frame);
-    EXPECT_DOUBLE_EQ(camera.unproject(50, 100, 1).x(), Camera().unproject(100, 200, 1).x());
+    const CameraModel camera = imageCamera(frame);
+    EXPECT_DOUBLE_EQ(camera.unproject(50, 100, 1).x(), CameraModel().unproject(100, 200, 1).x());
     EXPECT_EQ(camera.width, 320);
 }
 
@@ -76,7 +76,7 @@ TEST(LiveMessages, smallImagesKeepEveryPixel) {
     putImages(smoothImage(160, 120), frame);
     EXPECT_EQ(frame.step, 1);
     EXPECT_EQ(frame.depth.size(), cv::Size(160, 120));
-    EXPECT_EQ(imageCamera(frame).pixelsPerRadian(), Camera().pixelsPerRadian());
+    EXPECT_EQ(imageCamera(frame).pixelsPerRadian(), CameraModel().pixelsPerRadian());
 }
 
 TEST(LiveMessages, keyframesForTheMapHaveFewerPixelsThanPictures) {

@@ -89,7 +89,7 @@ class Noise {
     std::uint64_t state_ = 1;
 };
 
-inline Camera smallCamera() {
+inline CameraModel smallCamera() {
     Intrinsics camera;
     camera.width = 320, camera.height = 240;
     camera.fx = camera.fy = 262.5, camera.cx = 159.5, camera.cy = 119.5;
@@ -97,7 +97,7 @@ inline Camera smallCamera() {
 }
 
 /** \param noise adds DepthNoise to every reading when given */
-inline RgbdImage render(const BoxRoom& room, const Camera& camera, const SE3& T_world_cam,
+inline RgbdImage render(const BoxRoom& room, const CameraModel& camera, const SE3& T_world_cam,
                         double stamp_s = 0, Noise* noise = nullptr) {
     RgbdImage image;
     image.stamp_s = stamp_s;

@@ -19,7 +19,7 @@ namespace {
 using namespace testing_room;
 
 struct Mapped {
-    explicit Mapped(bool noisy, const MapOptions& options = {}, Camera camera = smallCamera())
+    explicit Mapped(bool noisy, const MapOptions& options = {}, CameraModel camera = smallCamera())
         : mapper(options, camera) {
         Noise noise;
         for (const SE3& T : walk(24))
@@ -79,7 +79,7 @@ LeafShares leafShares(const Mapped& map) {
         }
     }
     // Truth of the surface: where the camera's rays end.
-    const Camera camera = smallCamera();
+    const CameraModel camera = smallCamera();
     for (const SE3& T : walk(24)) {
         for (int v = 4; v < camera.height; v += 8) {
             for (int u = 4; u < camera.width; u += 8) {

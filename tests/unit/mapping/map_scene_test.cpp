@@ -26,7 +26,7 @@ std::size_t linesOf(mrpt::opengl::COpenGLScene scene, const char* name) {
 }
 
 TEST(MapScene, loopsTellTheirInliersAtTheirMiddle) {
-    auto scene = makeScene(fourInARow(), {}, Camera());
+    auto scene = makeScene(fourInARow(), {}, CameraModel());
     const auto texts = std::dynamic_pointer_cast<mrpt::opengl::CSetOfObjects>(
         scene.getByName(scene_names::loop_inliers));
     ASSERT_TRUE(texts);
@@ -40,11 +40,11 @@ TEST(MapScene, loopsTellTheirInliersAtTheirMiddle) {
 
 TEST(MapScene, pathsAreNotDrawnFromOneSessionToTheNext) {
     MapInputs inputs = fourInARow();
-    EXPECT_EQ(linesOf(makeScene(inputs, {}, Camera()), scene_names::graph_before_loops), 3u);
+    EXPECT_EQ(linesOf(makeScene(inputs, {}, CameraModel()), scene_names::graph_before_loops), 3u);
     inputs.earlier = {{"first.rawlog", 2}};
-    EXPECT_EQ(linesOf(makeScene(inputs, {}, Camera()), scene_names::graph_before_loops), 2u);
+    EXPECT_EQ(linesOf(makeScene(inputs, {}, CameraModel()), scene_names::graph_before_loops), 2u);
     inputs.unplaced_s = {0.5, 2.5};  // of the second session
-    EXPECT_EQ(linesOf(makeScene(inputs, {}, Camera()), scene_names::graph_before_loops), 1u);
+    EXPECT_EQ(linesOf(makeScene(inputs, {}, CameraModel()), scene_names::graph_before_loops), 1u);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ const cv::Vec3b bgr(30, 90, 200);
 using Cast = std::function<double(const Eigen::Vector3d& origin, const Eigen::Vector3d& direction)>;
 
 RgbdImage seen(const Cast& cast, const SE3& T_world_cam) {
-    const Camera camera = smallCamera();
+    const CameraModel camera = smallCamera();
     RgbdImage image;
     image.depth_unit_m = 0.0002;
     image.depth = cv::Mat(camera.height, camera.width, CV_16UC1);

@@ -100,7 +100,7 @@ std::map<std::uint64_t, int> readingsIn(const SE3& T_world_cam, const DepthView&
     return readings;
 }
 
-bool isHit(const VoxelIndex& v, int readings, const SE3& T_world_cam, const Camera& camera) {
+bool isHit(const VoxelIndex& v, int readings, const SE3& T_world_cam, const CameraModel& camera) {
     const Eigen::Vector3d center =
         voxel_m * (Eigen::Vector3d(v.x, v.y, v.z) + Eigen::Vector3d::Constant(0.5));
     const double z = std::max(voxel_m, (T_world_cam.inverse() * center).z());
@@ -113,7 +113,7 @@ std::optional<int> updated(std::optional<int> value, int step) {
 }
 
 TEST(OccupancyVolume, isWhatItsDefinitionSaysVoxelByVoxel) {
-    const Camera camera = smallCamera();
+    const CameraModel camera = smallCamera();
     const RayTable rays(camera);
     const MapOptions options;
     Noise noise;

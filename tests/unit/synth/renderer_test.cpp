@@ -31,14 +31,16 @@ Scene tiltedWall(double tilt_rad) {
 }
 
 /** Depth of a pixel's ray where it meets the plane of a quad. */
-double planeDepth(const Quad& quad, const Camera& camera, const SE3& T_world_cam, int u, int v) {
+double planeDepth(const Quad& quad, const CameraModel& camera, const SE3& T_world_cam, int u,
+                  int v) {
     const Vector3d ray = T_world_cam.R * camera.unproject(u, v, 1);
     const Vector3d normal = quad.normal();
     return normal.dot(quad.corners[0] - T_world_cam.t) / normal.dot(ray);
 }
 
 /** Depth of the nearest face of a scene of plane faces that a pixel's ray hits; 0 = none. */
-double sceneDepth(const Scene& scene, const Camera& camera, const SE3& T_world_cam, int u, int v) {
+double sceneDepth(const Scene& scene, const CameraModel& camera, const SE3& T_world_cam, int u,
+                  int v) {
     double nearest = 0;
     for (const Quad& quad : scene.quads) {
         const double z = planeDepth(quad, camera, T_world_cam, u, v);
@@ -55,7 +57,7 @@ double sceneDepth(const Scene& scene, const Camera& camera, const SE3& T_world_c
 
 TEST(Renderer, DepthOfASlantedPlaneIsExact) {
     const Scene scene = tiltedWall(0.5);
-    const Camera camera;
+    const CameraModel camera;
     const SE3 pose = lookingAt({0.2, 0.3, 1.1}, {4, 0.1, 0.9});
     const cv::Mat depth = Renderer(scene, camera).depth(pose);
     double worst = 0;
@@ -69,7 +71,7 @@ TEST(Renderer, DepthOfASlantedPlaneIsExact) {
 TEST(Renderer, DepthOfABoxIsExactButForItsRim) {
     Scene scene = tiltedWall(0);
     addBox(scene, scene.quads, standing(2, 0.1, 0.5, 0.4), {0.5, 0.7, 0.8}, BoxSkin(Skin{0}));
-    const Camera camera;
+    const CameraModel camera;
     const SE3 pose = lookingAt({0.1, 0.2, 1.6}, {2, 0, 0.9});
     const cv::Mat depth = Renderer(scene, camera).depth(pose);
     int off = 0;
@@ -111,7 +113,7 @@ Vector2d findPatch(const cv::Mat& from, const cv::Point& at, const cv::Mat& to,
 
 TEST(Renderer, TruthReprojectsWithinAThirdOfAPixel) {
     const Scene scene = tiltedWall(0.2);
-    const Camera camera;
+    const CameraModel camera;
     Renderer renderer(scene, camera);
     const SE3 first = lookingAt({1.8, 0.1, 1.2}, {4, 0.0, 1.0});
     const SE3 second = lookingAt({1.83, 0.16, 1.17}, {4, 0.03, 1.02});
@@ -137,7 +139,7 @@ TEST(Renderer, TruthReprojectsWithinAThirdOfAPixel) {
 TEST(Renderer, DepthAgreesBetweenViews) {
     const World world = findScenario("office").build(1, 1);
     const Scene scene = world.scene();
-    const Camera camera;
+    const CameraModel camera;
     Renderer renderer(scene, camera);
     const SE3 first = world.motion.T_world_cam(2.0), second = world.motion.T_world_cam(2.2);
     const cv::Mat from = renderer.depth(first), to = renderer.depth(second);

@@ -14,7 +14,7 @@ struct Statistics {
 };
 
 Statistics wallReadings(double z) {
-    const Camera camera;
+    const CameraModel camera;
     const cv::Mat wall(camera.height, camera.width, CV_32FC1, cv::Scalar(z));
     const cv::Mat readings = senseDepth(wall, camera, DepthSensorModel{}, Random(5));
     cv::Scalar mean, deviation;
@@ -35,7 +35,7 @@ TEST_P(WallNoise, FollowsTheModel) {
 INSTANTIATE_TEST_SUITE_P(Distances, WallNoise, testing::Values(0.7, 1.0, 1.5, 2.0, 3.0, 3.9));
 
 TEST(DepthSensor, DisparitiesAreQuantized) {
-    const Camera camera = Intrinsics{320, 240, 262.5, 262.5, 159.5, 119.5, {}};
+    const CameraModel camera = Intrinsics{320, 240, 262.5, 262.5, 159.5, 119.5, {}};
     const cv::Mat wall(240, 320, CV_32FC1, cv::Scalar(3.0));
     const cv::Mat readings = senseDepth(wall, camera, DepthSensorModel{}, Random(1));
     for (int u = 10; u < 300; ++u) {
@@ -54,7 +54,7 @@ TEST(DepthSensor, GivesNothingTooNearTooFarOrTooFlat) {
     EXPECT_LT(fading, 0.8);
 
     // A floor 0.3 m below the camera is seen at 0.3 / z: too flat from 1.76 m on.
-    const Camera camera;
+    const CameraModel camera;
     cv::Mat floor(camera.height, camera.width, CV_32FC1, cv::Scalar(0));
     const Intrinsics in = camera.intrinsics();
     for (int v = 300; v < camera.height; ++v) floor.row(v).setTo(0.3 * in.fy / (v - in.cy));
@@ -66,7 +66,7 @@ TEST(DepthSensor, GivesNothingTooNearTooFarOrTooFlat) {
 }
 
 TEST(DepthSensor, ShadowOfTheProjectorLiesLeftOfTheNearerThing) {
-    const Camera camera;
+    const CameraModel camera;
     cv::Mat depth(camera.height, camera.width, CV_32FC1, cv::Scalar(3.0));
     depth.colRange(300, 400).setTo(1.0);
     const cv::Mat readings = senseDepth(depth, camera, DepthSensorModel{}, Random(2));

@@ -84,7 +84,7 @@ TEST_F(Sequence, WithoutNoiseDepthIsTheTruthAndStampsAgree) {
     ASSERT_NE(pose, nullptr);
     const cv::Mat depth = cv::imread(folder + "/depth/1000.000000.png", cv::IMREAD_UNCHANGED);
     ASSERT_EQ(depth.type(), CV_16UC1);
-    const Camera camera = synthCamera(160, 120);
+    const CameraModel camera = synthCamera(160, 120);
     double worst = 0;
     for (int v = 0; v < 120; ++v)
         for (int u = 0; u < 160; ++u) {

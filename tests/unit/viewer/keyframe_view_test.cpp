@@ -6,7 +6,7 @@ namespace rgbd_graphslam {
 namespace {
 
 TEST(KeyframePoints, lieWhereTheCameraSawThem) {
-    const Camera camera;
+    const CameraModel camera;
     cv::Mat3b color(480, 640, cv::Vec3b(10, 20, 30));
     cv::Mat1w depth(480, 640, static_cast<std::uint16_t>(0));
     depth.colRange(0, 320) = 2000;

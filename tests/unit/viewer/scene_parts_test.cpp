@@ -41,7 +41,7 @@ TEST(PathLines, haveNoLengthAcrossLostFrames) {
 }
 
 TEST(FrustumLines, openTowardsWhatTheCameraSees) {
-    const Camera camera;
+    const CameraModel camera;
     const Vertices lines = frustumLines(alongX(2), camera, 0.2, red);
     ASSERT_EQ(lines.size(), 2 * vertices_a_frustum);
     int at_eye = 0;

@@ -45,7 +45,7 @@ TEST_F(Snapshot, showsTheFloorThroughTheCeilingUnlessToldNotTo) {
     PointMap points = sheet(0, {200, 30, 20});
     const PointMap ceiling = sheet(2.5f, {20, 30, 200});
     points.insert(points.end(), ceiling.begin(), ceiling.end());
-    const auto scene = makeScene(MapInputs(), points, Camera());
+    const auto scene = makeScene(MapInputs(), points, CameraModel());
     ViewOptions view;
     view.width_px = 320, view.height_px = 240, view.elevation_deg = 89;
     renderSnapshot(scene, view, path("a.png"));
@@ -65,7 +65,7 @@ TEST_F(Snapshot, meshTakesThePlaceOfThePoints) {
     mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
     ViewOptions view;
     view.width_px = 320, view.height_px = 240, view.elevation_deg = 89;
-    const auto scene = makeScene(MapInputs(), sheet(0, {200, 30, 20}), Camera());
+    const auto scene = makeScene(MapInputs(), sheet(0, {200, 30, 20}), CameraModel());
     renderSnapshot(scene, view, path("a.png"), mesh);
     const cv::Mat3b image = cv::imread(path("a.png"));
     EXPECT_GT(pixelsLike(image, {30, 200, 20}), 5000);
@@ -84,7 +84,8 @@ TEST_F(Snapshot, pathsAreSeen) {
     inputs.loops = {{0, 1, 9}};
     ViewOptions view;
     view.width_px = 320, view.height_px = 240;
-    renderSnapshot(makeScene(inputs, sheet(0, {200, 200, 200}), Camera()), view, path("a.png"));
+    renderSnapshot(makeScene(inputs, sheet(0, {200, 200, 200}), CameraModel()), view,
+                   path("a.png"));
     const cv::Mat3b image = cv::imread(path("a.png"));
     const auto bgr = [](const Rgba& color) { return cv::Vec3b(color[2], color[1], color[0]); };
     EXPECT_GT(pixelsLike(image, bgr(keyframe_color)), 20);
@@ -96,10 +97,10 @@ TEST_F(Snapshot, aFewStrayPointsDoNotMakeTheMapSmall) {
     PointMap points = sheet(0, {200, 30, 20});
     ViewOptions view;
     view.width_px = 320, view.height_px = 240, view.elevation_deg = 89;
-    renderSnapshot(makeScene(MapInputs(), points, Camera()), view, path("a.png"));
+    renderSnapshot(makeScene(MapInputs(), points, CameraModel()), view, path("a.png"));
     const int without = pixelsLike(cv::imread(path("a.png")), {20, 30, 200});
     for (int i = 0; i < 100; ++i) points.push_back({{30, 0.01f * static_cast<float>(i), 0}, {}});
-    renderSnapshot(makeScene(MapInputs(), points, Camera()), view, path("b.png"));
+    renderSnapshot(makeScene(MapInputs(), points, CameraModel()), view, path("b.png"));
     EXPECT_GT(pixelsLike(cv::imread(path("b.png")), {20, 30, 200}), 0.9 * without);
 }
 
