@@ -64,7 +64,8 @@ bool underMover(const Eigen::Vector3d& cell, const GridAccuracyOptions& options)
 std::vector<Eigen::Vector3d> occupiedCells(const std::string& yaml) {
     const GridFile grid = readGridFile(yaml);
     const std::string path = std::filesystem::path(yaml).parent_path() / grid.image;
-    const cv::Mat image = cv::imread(path, cv::IMREAD_GRAYSCALE);
+    cv::Mat image;
+    if (std::filesystem::exists(path)) image = cv::imread(path, cv::IMREAD_GRAYSCALE);
     if (image.empty()) throw Error("cannot read the grid's picture '" + path + "'", "map again");
     std::vector<Eigen::Vector3d> cells;
     for (int v = 0; v < image.rows; ++v) {

@@ -11,12 +11,12 @@ namespace rgbd_graphslam::synth {
 
 namespace {
 using Eigen::Vector3d;
-constexpr int kPeople = 7;
+constexpr int kPeople = 12;
 
 /** Round the middle of the room, some one way, some the other. */
 Walker anyWalker(Random& random) {
-    const double radius_x = random.uniform(0.9, 1.6), radius_y = random.uniform(0.4, 0.75);
-    const Vector3d center(random.uniform(2.9, 3.3), random.uniform(2.55, 2.85), 0);
+    const double radius_x = random.uniform(0.6, 1.0), radius_y = random.uniform(0.35, 0.6);
+    const Vector3d center(random.uniform(2.2, 2.8), random.uniform(2.7, 3.0), 0);
     const double turn = random.chance(0.5) ? 1 : -1;
     std::vector<Vector3d> way;
     for (int i = 0; i < 8; ++i) {
@@ -47,7 +47,7 @@ World build(int, std::uint64_t seed) {
 }  // namespace
 
 Scenario crowd() {
-    return {"crowd", "seven people walk about before a hand-held camera", 1, 300, build};
+    return {"crowd", "twelve people walk about before a hand-held camera", 1, 300, build};
 }
 
 }  // namespace rgbd_graphslam::synth

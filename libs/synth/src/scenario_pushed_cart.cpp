@@ -14,10 +14,11 @@ namespace {
 using Eigen::Vector3d;
 constexpr double kGrasped_s = 3, kReleased_s = 6.2;
 constexpr double kReach_m = 0.75;
+constexpr double kLate_s = 1.6;  // the walk begins so long after the film
 
 /** Pushed while it is grasped, and where it was left before and after. */
 SE3 pushed(const Walker& walker, double t) {
-    SE3 pose = walker.trunk(std::clamp(t, kGrasped_s, kReleased_s)) *
+    SE3 pose = walker.trunk(std::clamp(t, kGrasped_s, kReleased_s) - kLate_s) *
                SE3(Eigen::Matrix3d::Identity(), {kReach_m, 0, 0});
     pose.t.z() = 0;
     return pose;
@@ -35,7 +36,7 @@ World build(int, std::uint64_t seed) {
     Random random = Random::of(seed, 25);
     const Walker walker({{5.2, 3.4, 0}, {1.5, 1.95, 0}, {2.2, 1.6, 0}, {5.2, 2.6, 0}},
                         random.uniform(0.75, 0.9));
-    addWalker(walker, "person", world.movers);
+    addWalker(walker, "person", world.movers, -kLate_s);
     world.movers.push_back(
         {"cart", [=](double t) { return pushed(walker, t); }, pushed(walker, kGrasped_s)});
     world.exposure = drifting;

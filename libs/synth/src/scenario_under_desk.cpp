@@ -98,8 +98,8 @@ World build(int, std::uint64_t seed) {
                     {"", still, SE3(), false, Mover::SeenBy::Depth}};
     world.exposure = [](double t) {
         Exposure exposure = drifting(t);
-        exposure.brightness *= 0.55;
-        exposure.gain = 2;
+        exposure.brightness *= 1.1;
+        exposure.gain = 3;
         exposure.shutter_s = 0.02;
         return exposure;
     };

