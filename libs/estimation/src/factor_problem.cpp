@@ -11,8 +11,8 @@ namespace {
 /** Any factor as a cost of Ceres. */
 class FactorCost final : public ceres::CostFunction {
   public:
-    explicit FactorCost(const Factor& factor) : factor_(factor) {
-        for (const StateKey& key : factor.states()) {
+    FactorCost(const Factor& factor, const std::vector<StateKey>& keys) : factor_(factor) {
+        for (const StateKey& key : keys) {
             mutable_parameter_block_sizes()->push_back(blockSize(key.kind));
         }
         set_num_residuals(factor.residualSize());
@@ -58,7 +58,10 @@ std::unique_ptr<ceres::LossFunction> lossOf(const RobustKernel& kernel) {
 }
 
 FactorProblem::FactorProblem(const States& states)
-    : keyframes_(states.keyframes.size()), points_(states.points), problem_([] {
+    : keyframes_(states.keyframes.size()),
+      has_pose_(states.keyframes.size()),
+      points_(states.points),
+      problem_([] {
           ceres::Problem::Options options;
           options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
           return options;
@@ -78,13 +81,29 @@ double* FactorProblem::block(const StateKey& key) {
 }
 
 void FactorProblem::add(const Factor& factor) {
+    const std::vector<StateKey> keys = factor.states();
     std::vector<double*> blocks;
-    for (const StateKey& key : factor.states()) {
+    for (const StateKey& key : keys) {
         blocks.push_back(block(key));
-        if (key.kind != StateKind::Pose || problem_.HasParameterBlock(blocks.back())) continue;
+        if (key.kind != StateKind::Pose || has_pose_[key.index]) continue;
         problem_.AddParameterBlock(blocks.back(), blockSize(key.kind), &manifold_);
+        has_pose_[key.index] = true;
     }
-    problem_.AddResidualBlock(new FactorCost(factor), lossOf(factor.kernel()).release(), blocks);
+    problem_.AddResidualBlock(new FactorCost(factor, keys), lossOf(factor.kernel()).release(),
+                              blocks);
+}
+
+std::shared_ptr<ceres::ParameterBlockOrdering> FactorProblem::pointsFirst() {
+    auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
+    const auto put = [&](double* block, int group) {
+        if (problem_.HasParameterBlock(block)) ordering->AddElementToGroup(block, group);
+    };
+    for (Eigen::Vector3d& point : points_) put(point.data(), 0);
+    for (KeyframeBlock& keyframe : keyframes_) {
+        put(keyframe.data(), 1);
+        put(keyframe.data() + motion_offset, 1);
+    }
+    return ordering;
 }
 
 void FactorProblem::hold(int keyframe) {

@@ -1,5 +1,6 @@
 /** States and factors as a problem of Ceres. */
 #pragma once
+#include <ceres/ordered_groups.h>
 #include <ceres/problem.h>
 
 #include <array>
@@ -29,7 +30,8 @@ class FactorProblem {
 
     ceres::Problem& problem() { return problem_; }
 
-    double* block(const StateKey& key);
+    /** Order of elimination for what was added: points, then keyframes. */
+    std::shared_ptr<ceres::ParameterBlockOrdering> pointsFirst();
 
     KeyframeState keyframe(int keyframe) const;
     const std::vector<Eigen::Vector3d>& points() const { return points_; }
@@ -39,7 +41,10 @@ class FactorProblem {
     static constexpr int motion_offset = blockSize(StateKind::Pose);
     using KeyframeBlock = std::array<double, motion_offset + blockSize(StateKind::Motion)>;
 
+    double* block(const StateKey& key);
+
     std::vector<KeyframeBlock> keyframes_;
+    std::vector<bool> has_pose_;
     std::vector<Eigen::Vector3d> points_;
     LeftPerturbation manifold_;
     ceres::Problem problem_;

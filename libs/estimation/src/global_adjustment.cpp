@@ -1,6 +1,5 @@
 #include "rgbd_graphslam/estimation/global_adjustment.h"
 
-#include <ceres/ordered_groups.h>
 #include <ceres/solver.h>
 
 #include "factor_problem.h"
@@ -27,26 +26,16 @@ std::vector<PointObservation> pointObservations(const BundleProblem& problem) {
     return factors;
 }
 
-/** Points are eliminated first. */
-void addOrdered(const Factor& factor, FactorProblem& problem,
-                ceres::ParameterBlockOrdering& ordering) {
-    problem.add(factor);
-    for (const StateKey& key : factor.states()) {
-        ordering.AddElementToGroup(problem.block(key), key.kind == StateKind::Point ? 0 : 1);
-    }
-}
-
 BundleSummary minimize(BundleProblem& problem, int iterations) {
     const auto observations = pointObservations(problem);
     FactorProblem factors(problem.states);
-    auto ordering = std::make_shared<ceres::ParameterBlockOrdering>();
-    for (const PointObservation& o : observations) addOrdered(o, factors, *ordering);
-    for (const auto& factor : problem.factors) addOrdered(*factor, factors, *ordering);
+    for (const PointObservation& o : observations) factors.add(o);
+    for (const auto& factor : problem.factors) factors.add(*factor);
     const int keyframes = static_cast<int>(problem.states.keyframes.size());
     for (int k = problem.free_keyframes; k < keyframes; ++k) factors.hold(k);
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_SCHUR;
-    options.linear_solver_ordering = ordering;
+    options.linear_solver_ordering = factors.pointsFirst();
     options.max_num_iterations = iterations;
     options.num_threads = 1;
     options.logging_type = ceres::SILENT;

@@ -55,7 +55,7 @@ double largestDifference(const std::vector<SE3>& a, const std::vector<SE3>& b) {
 }
 
 /** The solvers stop when the cost falls by less than a hundred-thousandth; m, rad. Noise moves
- * nodes by centimeters. */
+ *  nodes by centimeters. */
 constexpr double same = 5e-4;
 
 TEST(Gauge, aPoseGraphInAnotherFrameGivesTheSameGraphThere) {

@@ -18,7 +18,9 @@ class MountedCamera {
 
     /** From the body's coordinates to the camera's. */
     Eigen::Vector3d fromBody(const Eigen::Vector3d& p_body) const {
-        return is_body_ ? p_body : T_cam_body_ * p_body;
+        Eigen::Vector3d p = p_body;
+        if (!is_body_) p = T_cam_body_ * p_body;
+        return p;
     }
     /** The camera's pose, from the body's. */
     SE3 fromBody(const SE3& T_body_world) const {
@@ -28,9 +30,10 @@ class MountedCamera {
     Eigen::Vector3d toBody(const Eigen::Vector3d& p_cam) const {
         return is_body_ ? p_cam : T_body_cam_ * p_cam;
     }
-    /** Derivatives by a point in the body's coordinates, from those by a point in the camera's. */
-    Eigen::Matrix3d byBodyPoint(const Eigen::Matrix3d& by_cam_point) const {
-        return is_body_ ? by_cam_point : by_cam_point * T_cam_body_.R;
+    /** Turns derivatives by a point in the camera's coordinates into those by the point in the
+     * body's, in place. */
+    void changeToBody(Eigen::Matrix3d& by_point) const {
+        if (!is_body_) by_point *= T_cam_body_.R;
     }
 
   private:

@@ -47,14 +47,14 @@ struct PoseGraphSummary {
     bool converged = false;
 };
 
-/** Minimizes the edges' squared Mahalanobis residuals over all nodes but node `fixed` and the
- *  fixed ones. Loop edges get a Cauchy kernel of `loop_kernel_sigmas`, so that wrong ones are
- * survived while a right one still pulls when the drift is far beyond its sigma. Of the kernels
- * tried it alone did both: with 40 of 2,001 loops wrong on 2,000 nodes the ATE is 0.13 m
- * against 1.85 m with Huber; dynamic covariance scaling (0.12 m), Geman-McClure and Tukey hold out
- * as well but ignore true loops after a long drift. Analytic Jacobians, single-threaded,
- * deterministic. \throws Error when an edge names a node that does not exist or has an information
- * matrix that is not positive definite, or when there is no node `fixed` */
+/** Minimizes the edges' squared Mahalanobis residuals over all nodes but `fixed` and the fixed
+ * ones. Loop edges get a Cauchy kernel of `loop_kernel_sigmas`, which survives wrong ones while a
+ * right one still pulls when the drift is far beyond its sigma. Of the kernels tried it alone did
+ * both: with 40 of 2,001 loops wrong on 2,000 nodes the ATE is 0.13 m against 1.85 m with Huber;
+ * dynamic covariance scaling (0.12 m), Geman-McClure and Tukey hold out as well but ignore true
+ * loops after a long drift. Single-threaded, deterministic. \throws Error when an edge names a node
+ * that does not exist or has an information matrix that is not positive definite, or when there is
+ * no node `fixed` */
 PoseGraphSummary optimizePoseGraph(PoseGraph& graph, const PoseGraphOptions& options,
                                    int fixed = 0);
 

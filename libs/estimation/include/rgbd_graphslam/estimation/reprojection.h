@@ -46,8 +46,8 @@ inline Eigen::Matrix3d residualJacobian(const Camera& camera, const Eigen::Vecto
 /** Derivatives by a left perturbation of the transform that gave the point `p`, from those by `p`.
  */
 template <int rows>
-Eigen::Matrix<double, rows, 6> byPose(const Eigen::Matrix<double, rows, 3>& by_point,
-                                      const Eigen::Vector3d& p) {
+[[gnu::always_inline]] inline Eigen::Matrix<double, rows, 6> byPose(
+    const Eigen::Matrix<double, rows, 3>& by_point, const Eigen::Vector3d& p) {
     Eigen::Matrix<double, rows, 6> J;
     J.template leftCols<3>() = by_point;
     for (int row = 0; row < rows; ++row) {
@@ -74,7 +74,9 @@ class PointView {
     }
     /** Derivative of the residual by the point in the body's coordinates. */
     Eigen::Matrix3d byBodyPoint(const Measurement& m) const {
-        return camera_.byBodyPoint(residualJacobian(camera_.camera(), p_cam_, m));
+        Eigen::Matrix3d J = residualJacobian(camera_.camera(), p_cam_, m);
+        camera_.changeToBody(J);
+        return J;
     }
     const Eigen::Vector3d& bodyPoint() const { return p_body_; }
 
