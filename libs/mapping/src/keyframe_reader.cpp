@@ -57,7 +57,7 @@ std::size_t forEachKeyframe(const RecordedCamera& camera, const Trajectory& keyf
     std::optional<std::string> sensor_label;
     if (!camera.sensor_label.empty()) sensor_label = camera.sensor_label;
     RawlogReader reader(rawlog);
-    Progress progress(label, keyframes.size(), "keyframes");
+    Progress progress(label, keyframes.size(), "frames");
     DepthStamps depth_stamps;
     std::vector<bool> seen(keyframes.size());
     std::size_t found = 0;
@@ -92,9 +92,9 @@ std::size_t forEachKeyframe(const RecordedCamera& camera, const Trajectory& keyf
                     "give --rawlog the file that the keyframes come from");
     }
     if (found < keyframes.size()) {
-        sayWarning(std::to_string(keyframes.size() - found) +
-                   " keyframes have no depth image in '" + rawlog +
-                   "' and are left out of the maps");
+        sayWarning(std::to_string(keyframes.size() - found) + " of " +
+                   std::to_string(keyframes.size()) + " frames have no depth image in '" + rawlog +
+                   "' and are left out (" + label + ")");
     }
     return found;
 }

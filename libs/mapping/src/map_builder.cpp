@@ -16,6 +16,7 @@
 #include "rgbd_graphslam/mapping/keyframe_reader.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 #include "rgbd_graphslam/mapping/map_scene.h"
+#include "rgbd_graphslam/mapping/moving_filter.h"
 #include "rgbd_graphslam/mapping/perspective_view.h"
 #include "rgbd_graphslam/mapping/plan_view.h"
 #include "rgbd_graphslam/mapping/simple_map.h"
@@ -24,15 +25,25 @@
 namespace rgbd_graphslam {
 namespace {
 
-/** What one pass over the rawlog makes. */
+/** What the maps are made with. */
 struct Maps {
+    std::optional<MovingFilter> moving;
     std::optional<Camera> camera;
     std::optional<DenseMapper> dense;
     std::optional<ViewCoverage> coverage;
     mrpt::maps::CSimpleMap simple;
     double insert_ms = 0;
 
-    void add(const Keyframe3D& keyframe, const MapInputs& inputs, const MapOptions& options) {
+    void addSight(const Keyframe3D& frame, const MapInputs& inputs, int session) {
+        const ThreadClock clock;
+        if (!moving) moving.emplace(frame.camera);
+        moving->add(frame.image, frame.pose.stamp_s,
+                    depthPose(frame.pose, frame.depth_stamp_s, inputs.trajectory), session);
+        insert_ms += clock.cpuMs();
+    }
+
+    void add(const Keyframe3D& keyframe, const MapInputs& inputs, const MapOptions& options,
+             int session) {
         if (!dense) {
             camera = keyframe.camera;
             dense.emplace(options, keyframe.camera);
@@ -40,7 +51,10 @@ struct Maps {
         }
         const SE3 T_world_cam = depthPose(keyframe.pose, keyframe.depth_stamp_s, inputs.trajectory);
         const ThreadClock clock;
-        const DepthView view = dense->view(keyframe.image);
+        const double stamp_s = keyframe.pose.stamp_s;
+        const DepthView view = dense->view(
+            moving ? moving->withoutMovers(keyframe.image, stamp_s, T_world_cam, session)
+                   : keyframe.image);
         dense->insert(T_world_cam, view);
         insert_ms += clock.cpuMs();
         coverage->add(keyframe.pose.T_world_cam);
@@ -55,30 +69,62 @@ struct Maps {
     }
 };
 
-std::size_t addSession(Maps& maps, const MapInputs& inputs, const MapOptions& options,
-                       const RecordedCamera& camera, const Trajectory& keyframes) {
-    return forEachKeyframe(camera, keyframes, "mapping", [&](const Keyframe3D& keyframe) {
-        maps.add(keyframe, inputs, options);
-    });
-}
+/** A rawlog with the poses of those of its frames that are looked at. */
+struct Recording {
+    RecordedCamera camera;
+    Trajectory keyframes, sights;
+    bool is_earlier;
+};
 
-/** \return how many keyframes were added */
-std::size_t addSessions(Maps& maps, const MapInputs& inputs, const MapOptions& options) {
-    std::size_t added = 0;
+/** In order of the sessions. */
+std::vector<Recording> recordingsOf(const MapInputs& inputs) {
+    std::vector<Recording> recordings;
     auto begin = inputs.keyframes.begin();
     for (const EarlierSession& session : inputs.earlier) {
         const Trajectory keyframes(begin, begin + static_cast<std::ptrdiff_t>(session.keyframes));
         begin += static_cast<std::ptrdiff_t>(session.keyframes);
-        if (keyframes.empty()) continue;
+        recordings.push_back({session.rawlog, keyframes, keyframes, true});
+    }
+    recordings.push_back({{inputs.rawlog, inputs.sensor_label},
+                          {begin, inputs.keyframes.end()},
+                          sightsOf(inputs),
+                          false});
+    return recordings;
+}
+
+/** What is amiss with a recording is told when its keyframes are mapped. */
+void addSights(Maps& maps, const MapInputs& inputs, const std::vector<Recording>& recordings) {
+    for (std::size_t i = 0; i < recordings.size(); ++i) {
+        if (recordings[i].sights.empty()) continue;
         try {
-            added += addSession(maps, inputs, options, session.rawlog, keyframes);
+            forEachKeyframe(recordings[i].camera, recordings[i].sights, "free space",
+                            [&](const Keyframe3D& frame) {
+                                maps.addSight(frame, inputs, static_cast<int>(i));
+                            });
         } catch (const Error& e) {
+            sayDetail(std::string("not all frames tell of free space: ") + e.what());
+        }
+    }
+}
+
+/** \return how many keyframes were added */
+std::size_t addSessions(Maps& maps, const MapInputs& inputs, const MapOptions& options) {
+    const std::vector<Recording> recordings = recordingsOf(inputs);
+    if (options.drop_points_in_free_space) addSights(maps, inputs, recordings);
+    std::size_t added = 0;
+    for (std::size_t i = 0; i < recordings.size(); ++i) {
+        if (recordings[i].keyframes.empty()) continue;
+        try {
+            added += forEachKeyframe(recordings[i].camera, recordings[i].keyframes, "mapping",
+                                     [&](const Keyframe3D& keyframe) {
+                                         maps.add(keyframe, inputs, options, static_cast<int>(i));
+                                     });
+        } catch (const Error& e) {
+            if (!recordings[i].is_earlier) throw;
             sayWarning(std::string("an earlier session is left out of the maps: ") + e.what());
         }
     }
-    if (begin == inputs.keyframes.end()) return added;
-    return added + addSession(maps, inputs, options, {inputs.rawlog, inputs.sensor_label},
-                              {begin, inputs.keyframes.end()});
+    return added;
 }
 
 /** A mesh of earlier maps would be of other poses: without a new one it goes, too. Last, so that

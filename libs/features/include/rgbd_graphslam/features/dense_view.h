@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "rgbd_graphslam/geometry/camera.h"
+#include "rgbd_graphslam/geometry/pixel_blocks.h"
 
 namespace rgbd_graphslam {
 
