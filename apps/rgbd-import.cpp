@@ -13,6 +13,7 @@
 #include "rgbd_graphslam/dataset/sequence_archive.h"
 #include "rgbd_graphslam/dataset/sequence_import.h"
 #include "rgbd_graphslam/dataset/sequence_layout.h"
+#include "rgbd_graphslam/dataset/stereo_import.h"
 #include "rgbd_graphslam/dataset/unpacked_bag.h"
 #include "rgbd_graphslam/dataset/unpacked_sens.h"
 
@@ -61,7 +62,8 @@ SensorUnitValues sensorUnits(const Arguments& args) {
 
 void declareSource(CLI::App& app, Arguments& args) {
     app.add_option("DIR", args.source,
-                   "Folder of the sequence, its .tgz archive, ScanNet's .sens, or a ROS bag: .bag "
+                   "Folder of the sequence (RGB-D; EuRoC, KITTI or other stereo), its archive, "
+                   "ScanNet's .sens, or a ROS bag: .bag "
                    "(ROS 1, RealSense), .db3, .mcap or folder (ROS 2)")
         ->required();
     app.add_option("OUT.rawlog", args.rawlog, "Rawlog to write")->required();
@@ -208,6 +210,8 @@ int importRead(const Arguments& args, const RgbdSequence& recorded, SequenceLayo
     const RgbdSequence sequence = inOurUnits(recorded, sensorUnits(args));
     CameraSetup setup = chooseCamera(args, sequence, layout);
     completeImageSize(sequence, setup.camera);
+    const bool from_file = !args.camera.empty() && !cameraByName(args.camera);
+    if (from_file) requirePrincipalPoint(setup.camera, setup.name);
     if (sequence.depth_units) {
         setup.depth_units = *sequence.depth_units;
         setup.depth_units_assumed = false;
@@ -235,7 +239,23 @@ int importRead(const Arguments& args, const RgbdSequence& recorded, SequenceLayo
     return 0;
 }
 
+int importStereoFolder(const Arguments& args, const std::string& folder) {
+    if (!args.depth_camera.empty() || args.depth_units > 0 || args.depth_scale > 0) {
+        throw Error("'" + folder + "' is a stereo recording without depth images",
+                    "leave --register, --depth-units and --depth-scale out");
+    }
+    StereoSequence sequence = readStereoFolder(folder, args.rate_hz, args.camera);
+    sequence.motion = inOurUnits(sequence.motion, sensorUnits(args));
+    const StereoReport report = importStereo(sequence, args.rawlog, args.import);
+    std::fputs(toText(report).c_str(), stdout);
+    return 0;
+}
+
 int importFolder(const Arguments& args, const std::string& folder) {
+    if (args.layout == "auto" && fs::is_directory(folder) && !layoutOf(folder) &&
+        isStereoFolder(folder)) {
+        return importStereoFolder(args, folder);
+    }
     const SequenceLayout layout =
         args.layout == "auto" ? detectLayout(folder) : layoutByName(args.layout);
     return importRead(args, readSequence(folder, layout, args.rate_hz), layout);
@@ -282,7 +302,8 @@ int run(Arguments& args) {
 int main(int argc, char** argv) {
     using namespace rgbd_graphslam;
     CLI::App app(
-        "Imports an RGB-D recording (image folders of many layouts, archives, ROS bags, .sens) "
+        "Imports an RGB-D or stereo recording (image folders of many layouts, archives, ROS bags, "
+        ".sens) "
         "into an MRPT rawlog",
         "rgbd-import");
     Arguments args;

@@ -114,6 +114,19 @@ const std::string little_memory = "";  // the sanitizer itself needs more
 const std::string little_memory = "ulimit -d 2000000; ";
 #endif
 
+TEST_F(FaultRawlog, stereoPairsAreNotTrackedYet) {
+    write([](RawlogWriter& writer) {
+        mrpt::obs::CObservationStereoImages pair;
+        pair.timestamp = mrpt::Clock::now();
+        for (int i = 0; i < 3; ++i) writer.write(pair);
+    });
+    const ProgramResult result = slam();
+    EXPECT_EQ(result.exit_code, 1);
+    EXPECT_THAT(result.err,
+                HasSubstr("has 3 stereo pairs and no depth: stereo is not tracked yet"));
+    EXPECT_THAT(result.err, HasSubstr("stereo matching"));
+}
+
 TEST_F(FaultRawlog, damagedLengthsEndInOneLine) {
     write(Film{film_[0]});
     const std::string whole = readText(rawlog());

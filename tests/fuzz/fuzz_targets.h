@@ -14,8 +14,14 @@ void fuzzTumList(const std::string& bytes);
 void fuzzAssociations(const std::string& bytes);
 void fuzzIntrinsicsJson(const std::string& bytes);
 void fuzzIntrinsicsYaml(const std::string& bytes);
-/** The bytes are odometry.csv, and camera_matrix.csv. */
+/** The bytes are odometry.csv, imu.csv, and camera_matrix.csv. */
 void fuzzStrayScanner(const std::string& bytes);
+/** The bytes are both cameras' sensor.yaml, and camchain.yaml. */
+void fuzzEurocSensor(const std::string& bytes);
+/** The bytes are data.csv of a camera, of the IMU, and of the truth. */
+void fuzzEurocLists(const std::string& bytes);
+/** The bytes are calib.txt, times.txt, and poses.txt. */
+void fuzzKittiCalib(const std::string& bytes);
 void fuzzSens(const std::string& bytes);
 void fuzzIni(const std::string& bytes);
 void fuzzCameraIni(const std::string& bytes);

@@ -15,11 +15,14 @@
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/ini_formulas.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
+#include "rgbd_graphslam/dataset/stereo_sequence.h"
 
 namespace rgbd_graphslam {
 namespace {
 
-constexpr const char* section = "CAMERA_PARAMS";
+constexpr const char* left_section = "CAMERA_PARAMS";
+constexpr const char* right_section = "CAMERA_PARAMS_RIGHT";
+constexpr const char* stereo_section = "STEREO";
 const std::vector<std::string> mrpt_keys = {
     "resolution",       "fx",           "fy",         "cx", "cy", "dist",
     "distortion_model", "focal_length", "camera_name"};
@@ -40,10 +43,11 @@ bool contains(const std::vector<std::string>& list, const std::string& item) {
     return std::find(list.begin(), list.end(), item) != list.end();
 }
 
-/** One camera file being read. */
+/** One section of a camera file being read. */
 class CameraFile {
   public:
-    explicit CameraFile(const std::string& path) : path_(path) {
+    CameraFile(const std::string& path, std::string section)
+        : path_(path), section_(std::move(section)) {
         std::ifstream in(path);
         std::stringstream text;
         if (!in || !(text << in.rdbuf())) {
@@ -56,19 +60,18 @@ class CameraFile {
         } catch (const std::exception& e) {  // MRPT's variables
             refuse(e.what());
         }
-        if (!config_.sectionExists(section))
-            refuse("has no section [" + std::string(section) + "]");
+        if (!config_.sectionExists(section_)) refuse("has no section [" + section_ + "]");
         refuseRepeatedKeys(text.str());
-        checkKeys();
     }
 
     Intrinsics camera() {
+        checkKeys();
         const Lens lens = lensOfFile();
-        config_.write(section, "distortion_model", std::string("none"));
-        config_.write(section, "dist", std::string("[0 0 0 0 0]"));
+        config_.write(section_, "distortion_model", std::string("none"));
+        config_.write(section_, "dist", std::string("[0 0 0 0 0]"));
         mrpt::img::TCamera camera;
         try {
-            camera.loadFromConfigFile(section, config_);
+            camera.loadFromConfigFile(section_, config_);
         } catch (const std::exception&) {
             refuse("MRPT cannot read it");
         }
@@ -81,12 +84,19 @@ class CameraFile {
         return own;
     }
 
-    bool has(const std::string& key) const { return config_.keyExists(section, key); }
+    bool has(const std::string& key) const { return config_.keyExists(section_, key); }
 
     double positive(const std::string& key, double otherwise) const {
         if (!has(key)) return otherwise;
         const auto numbers = numbersOf(key);
         if (numbers.size() != 1 || numbers[0] <= 0) refuse(key + " must be one positive number");
+        return numbers[0];
+    }
+
+    double number(const std::string& key) const {
+        if (!has(key)) refuse("the key '" + key + "' is missing");
+        const auto numbers = numbersOf(key);
+        if (numbers.size() != 1) refuse(key + " must be one number");
         return numbers[0];
     }
 
@@ -110,7 +120,7 @@ class CameraFile {
     }
 
     std::vector<double> numbersOf(const std::string& key) const {
-        std::string text = config_.read_string(section, key, "");
+        std::string text = config_.read_string(section_, key, "");
         std::replace_if(
             text.begin(), text.end(), [](char c) { return c == '[' || c == ']' || c == ','; }, ' ');
         std::istringstream words(text);
@@ -137,7 +147,7 @@ class CameraFile {
             }
             if (line[start] == '[') {
                 in_section = lowerCase(line.substr(start + 1, line.find(']') - start - 1)) ==
-                             lowerCase(section);
+                             lowerCase(section_);
                 continue;
             }
             const auto end = line.find_first_of(" \t=", start);
@@ -153,7 +163,7 @@ class CameraFile {
 
     /** Read here rather than by MRPT, which mixes up the coefficients of a fisheye. */
     Lens lensOfFile() const {
-        const std::string model = config_.read_string(section, "distortion_model", "plumb_bob");
+        const std::string model = config_.read_string(section_, "distortion_model", "plumb_bob");
         const auto coefficients = has("dist") ? numbersOf("dist") : std::vector<double>();
         const std::size_t n = coefficients.size();
         if (model == "none") return {};
@@ -170,7 +180,7 @@ class CameraFile {
 
     void checkKeys() const {
         std::vector<std::string> keys;
-        config_.getAllKeys(section, keys);
+        config_.getAllKeys(section_, keys);
         for (const auto& key : keys) {
             if (!isComment(key) && !contains(mrpt_keys, key) && !contains(own_keys, key)) {
                 refuse("unknown key '" + key + "'");
@@ -190,7 +200,7 @@ class CameraFile {
         if (camera.ncols == 0 || camera.nrows == 0) refuse("resolution must be positive");
     }
 
-    std::string path_;
+    std::string path_, section_;
     mrpt::config::CConfigFileMemory config_;
 };
 
@@ -286,6 +296,14 @@ std::vector<std::string> doubtsOf(const Intrinsics& camera) {
     return doubts;
 }
 
+void requirePrincipalPoint(const Intrinsics& camera, const std::string& name) {
+    if (CameraModel(camera).contains({camera.cx, camera.cy})) return;
+    const auto doubts = doubtsOf(camera);
+    throw Error("the calibration '" + name + "': " +
+                    (doubts.empty() ? "the principal point is outside the image" : doubts.front()),
+                "mend it, or give another with --camera");
+}
+
 std::optional<Intrinsics> resizedTo(const Intrinsics& camera, int width, int height) {
     constexpr int largest_factor = 8;
     const int more = std::max(width, camera.width), less = std::min(width, camera.width);
@@ -299,7 +317,7 @@ std::optional<Intrinsics> resizedTo(const Intrinsics& camera, int width, int hei
 }
 
 CameraSetup readCameraFile(const std::string& path) {
-    CameraFile file(path);
+    CameraFile file(path, left_section);
     CameraSetup setup;
     setup.name = path;
     setup.camera = file.camera();
@@ -311,10 +329,25 @@ CameraSetup readCameraFile(const std::string& path) {
     return setup;
 }
 
+StereoCalibration readStereoCameraFile(const std::string& path) {
+    const CameraSetup left = readCameraFile(path);
+    CameraFile right(path, right_section);
+    const CameraFile stereo(path, stereo_section);
+    StereoCalibration calibration;
+    calibration.name = path;
+    calibration.left = toTCamera(left.camera);
+    calibration.right = toTCamera(right.camera());
+    calibration.T_base_left = left.T_base_sensor * T_optical_from_mrpt.inverse();
+    calibration.T_base_imu = left.T_base_sensor * left.T_sensor_imu;
+    calibration.T_left_right.t.x() = stereo.number("baseline");
+    return calibration;
+}
+
 std::string toIniText(const CameraSetup& setup) {
     const Intrinsics& camera = setup.camera;
     std::ostringstream out;
-    out << "[" << section << "]\nresolution = [" << camera.width << " " << camera.height << "]\n";
+    out << "[" << left_section << "]\nresolution = [" << camera.width << " " << camera.height
+        << "]\n";
     out << "fx = " << shortest(camera.fx) << "\nfy = " << shortest(camera.fy) << "\n";
     out << "cx = " << shortest(camera.cx) << "\ncy = " << shortest(camera.cy) << "\n";
     const std::string model = lensModel(camera.lens);

@@ -13,15 +13,15 @@ namespace fs = std::filesystem;
 namespace {
 
 /** Images whose file exists, in order of time, each stamp once. */
-std::vector<ListedImage> usableImages(const RgbdSequence& sequence,
-                                      const std::vector<ListedImage>& images, bool strict,
-                                      ImageTally& tally) {
-    tally.listed = images.size();
-    tally.backwards = stampOrder(images).backwards;
+std::vector<ListedImage> usableImages(const std::string& folder, const ImageStream& stream,
+                                      bool strict) {
+    ImageTally& tally = stream.tally;
+    tally.listed = stream.images.size();
+    tally.backwards = stampOrder(stream.images).backwards;
     std::set<long long> seen;
     std::vector<ListedImage> usable;
-    for (const auto& image : images) {
-        const fs::path file = fs::path(sequence.folder) / image.file;
+    for (const auto& image : stream.images) {
+        const fs::path file = fs::path(folder) / image.file;
         if (!fs::is_regular_file(file)) {
             if (strict) {
                 throw Error("the listed image '" + file.string() + "' is missing",
@@ -31,7 +31,7 @@ std::vector<ListedImage> usableImages(const RgbdSequence& sequence,
         } else if (!seen.insert(microseconds(image.stamp_s)).second) {
             ++tally.repeated;
         } else {
-            usable.push_back(image);
+            usable.push_back({image.stamp_s + stream.offset_s, image.file});
         }
     }
     std::stable_sort(usable.begin(), usable.end(),
@@ -47,8 +47,8 @@ std::vector<double> stampsOf(const std::vector<ListedImage>& images) {
 }
 
 /** Where all files of a list are missing: that, and the first of them. */
-std::string missingText(const ImportReport& report) {
-    for (const ImageTally* tally : {&report.color, &report.depth}) {
+std::string missingText(const ImageStream& first, const ImageStream& second) {
+    for (const ImageTally* tally : {&first.tally, &second.tally}) {
         if (tally->missing == tally->listed && tally->listed > 0) {
             return ", the listed files are missing (the first: '" + tally->first_missing + "')";
         }
@@ -69,14 +69,14 @@ void tallyLeftOver(const std::vector<double>& own, const std::vector<bool>& pair
     }
 }
 
-void refuseLoss(std::size_t pairs, const RgbdSequence& sequence, const ImportOptions& options,
-                const ImportReport& report) {
-    const std::size_t possible = std::min(report.color.listed, report.depth.listed);
+void refuseLoss(std::size_t pairs, const std::string& folder, const ImageStream& first,
+                const ImageStream& second, double max_difference_s) {
+    const std::size_t possible = std::min(first.tally.listed, second.tally.listed);
     if (2 * pairs >= possible) return;
-    const std::size_t missing = report.color.missing + report.depth.missing;
+    const std::size_t missing = first.tally.missing + second.tally.missing;
     throw Error("only " + std::to_string(pairs) + " of " + std::to_string(possible) +
-                    " frames of '" + sequence.folder + "' have color and depth within " +
-                    shortest(options.max_difference_s) + " s of each other" +
+                    " frames of '" + folder + "' have " + first.name + " and " + second.name +
+                    " within " + shortest(max_difference_s) + " s of each other" +
                     (missing > 0 ? " (" + std::to_string(missing) + " listed files are missing)"
                                  : std::string()),
                 "check stamps and files, raise --max-difference, or pass --allow-loss to import "
@@ -85,28 +85,55 @@ void refuseLoss(std::size_t pairs, const RgbdSequence& sequence, const ImportOpt
 
 }  // namespace
 
+std::vector<ImagePair> pairUp(const std::string& folder, const ImageStream& first,
+                              const ImageStream& second, const ImportOptions& options) {
+    const double nearest_s = options.max_difference_s;
+    const auto a = usableImages(folder, first, options.strict),
+               b = usableImages(folder, second, options.strict);
+    const auto a_stamps = stampsOf(a), b_stamps = stampsOf(b);
+    std::vector<bool> a_paired(a.size()), b_paired(b.size());
+    std::vector<ImagePair> pairs;
+    for (const auto& [i, j] : associate(a_stamps, b_stamps, nearest_s)) {
+        pairs.push_back({a[i], b[j]});
+        a_paired[i] = b_paired[j] = true;
+    }
+    tallyLeftOver(a_stamps, a_paired, b_stamps, nearest_s, first.tally);
+    tallyLeftOver(b_stamps, b_paired, a_stamps, nearest_s, second.tally);
+    if (pairs.empty()) {
+        throw Error("no " + first.name + " and " + second.name + " image of '" + folder +
+                        "' are within " + shortest(nearest_s) + " s of each other" +
+                        missingText(first, second),
+                    "check the stamps of both lists, or raise --max-difference");
+    }
+    if (!options.allow_loss) refuseLoss(pairs.size(), folder, first, second, nearest_s);
+    return pairs;
+}
+
+std::string tallyText(const std::string& name, const std::string& other, const ImageTally& tally) {
+    std::string text = name + ": " + std::to_string(tally.listed) + " listed, " +
+                       std::to_string(tally.leftOver()) + " left over";
+    std::string reasons;
+    const auto reason = [&](std::size_t count, const std::string& why) {
+        if (count > 0) reasons += (reasons.empty() ? "" : ", ") + std::to_string(count) + " " + why;
+    };
+    reason(tally.no_partner, "without " + other + " near enough");
+    reason(tally.partner_taken, "whose " + other + " went to a nearer one");
+    reason(tally.missing, "files missing, the first: '" + tally.first_missing + "'");
+    reason(tally.repeated, "stamps repeated");
+    if (!reasons.empty()) text += " (" + reasons + ")";
+    return text + "; " + std::to_string(tally.backwards) + " stamps go back, " +
+           std::to_string(tally.repeated) + " repeat\n";
+}
+
 std::vector<FramePair> pairUp(const RgbdSequence& sequence, const ImportOptions& options,
                               ImportReport& report) {
-    const auto color = usableImages(sequence, sequence.color, options.strict, report.color);
-    auto depth = usableImages(sequence, sequence.depth, options.strict, report.depth);
-    for (ListedImage& image : depth) image.stamp_s += options.depth_offset_s;
-    const auto color_stamps = stampsOf(color), depth_stamps = stampsOf(depth);
-    std::vector<bool> color_paired(color.size()), depth_paired(depth.size());
-    std::vector<FramePair> pairs;
-    for (const auto& [i, j] : associate(color_stamps, depth_stamps, options.max_difference_s)) {
-        pairs.push_back({color[i], depth[j]});
-        color_paired[i] = depth_paired[j] = true;
+    std::vector<FramePair> frames;
+    for (auto& [color, depth] :
+         pairUp(sequence.folder, {"color", sequence.color, report.color},
+                {"depth", sequence.depth, report.depth, options.depth_offset_s}, options)) {
+        frames.push_back({std::move(color), std::move(depth)});
     }
-    tallyLeftOver(color_stamps, color_paired, depth_stamps, options.max_difference_s, report.color);
-    tallyLeftOver(depth_stamps, depth_paired, color_stamps, options.max_difference_s, report.depth);
-    if (pairs.empty()) {
-        throw Error("no color and depth image of '" + sequence.folder + "' are within " +
-                        shortest(options.max_difference_s) + " s of each other" +
-                        missingText(report),
-                    "check rgb.txt and depth.txt, or raise --max-difference");
-    }
-    if (!options.allow_loss) refuseLoss(pairs.size(), sequence, options, report);
-    return pairs;
+    return frames;
 }
 
 }  // namespace rgbd_graphslam

@@ -99,6 +99,10 @@ DecodedImage readColorImage(const std::string& path) {
     return decoded(path, bytesOf(path), cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION);
 }
 
+DecodedImage readGrayOrColorImage(const std::string& path) {
+    return decoded(path, bytesOf(path), cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
+}
+
 DecodedImage readDepthImage(const std::string& path, double units) {
     const Bytes bytes = bytesOf(path);
     if (startsWith(bytes, exr_start)) refuseDepth(path, "OpenEXR, floating-point");

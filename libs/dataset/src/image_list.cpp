@@ -126,22 +126,22 @@ void readMotionFiles(const std::string& folder, RgbdSequence& sequence) {
     sequence.odometry = readVectors(path / "odometry.txt", "stamp x y theta");
 }
 
-void unifyStamps(RgbdSequence& sequence, bool images_in_seconds) {
+void unifyStamps(RgbdSequence& sequence, bool images_in_seconds, const ImageListNames& names) {
     if (sequence.color.empty()) return;
     const StampUnit unit =
         images_in_seconds ? stampUnits().front() : unitOfStamps(stampsOf(sequence.color));
     if (unit.seconds != 1) {
-        sequence.notes.push_back(std::string("stamps of the color images look like ") + unit.name +
-                                 ": taken as such");
+        sequence.notes.push_back(std::string("stamps of ") + names.color + " look like " +
+                                 unit.name + ": taken as such");
         scale(sequence.color, unit);
     }
     const auto stamps = stampsOf(sequence.color);
-    checkRange("color images", stamps);
+    checkRange(names.color, stamps);
     const auto [first, last] = std::minmax_element(stamps.begin(), stamps.end());
     const auto beside = [&, first_s = *first, last_s = *last](const char* list, auto& entries) {
         unifyBeside(list, first_s, last_s, entries, sequence.notes);
     };
-    if (!images_in_seconds) beside("the depth images", sequence.depth);
+    if (!images_in_seconds) beside(names.depth, sequence.depth);
     beside("the ground truth", sequence.truth);
     beside("the accelerometer's readings", sequence.acceleration);
     beside("the gyroscope's readings", sequence.angular_velocity);

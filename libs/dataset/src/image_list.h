@@ -25,10 +25,16 @@ std::vector<ListedImage> readImageList(const std::string& folder, const std::str
  *  \throws Error naming file and line that do not have their form */
 void readMotionFiles(const std::string& folder, RgbdSequence& sequence);
 
+/** What messages call the sequence's two lists of images. */
+struct ImageListNames {
+    const char *color, *depth;
+};
+
 /** Turns all stamps to seconds: images by magnitude and step, the other lists so that they overlap
  *  the images. Says so in the sequence's notes.
  *  \param images_in_seconds color and depth are already
  *  \throws Error naming the list with a stamp that is no time in any unit */
-void unifyStamps(RgbdSequence& sequence, bool images_in_seconds = false);
+void unifyStamps(RgbdSequence& sequence, bool images_in_seconds = false,
+                 const ImageListNames& names = {"the color images", "the depth images"});
 
 }  // namespace rgbd_graphslam

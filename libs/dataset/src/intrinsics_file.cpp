@@ -4,11 +4,10 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "calibration_text.h"
 #include "plain_yaml.h"
 #include "rgbd_graphslam/core/error.h"
 #include "ros_lens.h"
@@ -198,23 +197,12 @@ class Calibration {
     const Json& node_;
 };
 
-std::string textOf(const std::string& path) {
-    constexpr std::uintmax_t most_bytes = 64 << 20;
-    std::ifstream in(path, std::ios::binary);
-    std::error_code failure;
-    const auto bytes = fs::file_size(path, failure);
-    if (!in || failure) throw Error("cannot read the calibration '" + path + "'", "check the name");
-    if (bytes > most_bytes)
-        throw Error("'" + path + "' is too large for a calibration", "check it");
-    return {std::istreambuf_iterator<char>(in), {}};
-}
-
 CameraSetup parsed(const std::string& path) {
     Json tree;
     if (isYaml(path)) {
-        tree = parsePlainYaml(textOf(path));
+        tree = parsePlainYaml(calibrationText(path));
     } else {
-        tree = Json::parse(textOf(path), nullptr, false);
+        tree = Json::parse(calibrationText(path), nullptr, false);
         if (tree.is_discarded()) throw Error("'" + path + "' is no JSON", "check it");
     }
     const Json* camera = cameraIn(tree);

@@ -50,7 +50,9 @@ CameraSetup eth3dCamera(const RgbdSequence& sequence) {
 
 std::optional<CameraSetup> cameraInFolder(const RgbdSequence& sequence) {
     auto setup = calibrationIn(sequence.folder);
-    if (setup) completeImageSize(sequence, setup->camera);
+    if (!setup) return std::nullopt;
+    completeImageSize(sequence, setup->camera);
+    requirePrincipalPoint(setup->camera, setup->name);
     return setup;
 }
 

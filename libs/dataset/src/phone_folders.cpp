@@ -1,6 +1,8 @@
 #include "phone_folders.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -85,6 +87,45 @@ std::string metadataIn(const std::string& folder) {
     return "";
 }
 
+/** Axes of an iPhone's motion sensors (portrait: x right, y up, z out of the screen) in MRPT's
+ * sensor frame of its rear camera, whose images are upright when the phone lies with its right side
+ * up: Apple's documentation of CMMotionManager and ARCamera.transform. */
+SE3 phoneImuAxes() {
+    return {(Eigen::Matrix3d() << 0, 0, -1, 0, 1, 0, 1, 0, 0).finished(), Eigen::Vector3d::Zero()};
+}
+
+/** \param readings at least one */
+double medianNorm(const std::vector<StampedVector>& readings) {
+    std::vector<double> norms;
+    for (const auto& reading : readings) norms.push_back(reading.value.norm());
+    const auto middle = norms.begin() + static_cast<std::ptrdiff_t>(norms.size() / 2);
+    std::nth_element(norms.begin(), middle, norms.end());
+    return *middle;
+}
+
+/** iOS gives the acceleration of gravity, in g: the opposite of what an accelerometer feels. */
+void readStrayImu(const std::string& path, RgbdSequence& sequence) {
+    constexpr double standard_gravity = 9.80665, most_g = 2;
+    const std::string form = "timestamp, a_x, a_y, a_z, alpha_x, alpha_y, alpha_z";
+    if (!fs::exists(path)) return;
+    forEachLine(path, [&](Line& line) {
+        if (line.number == 1 && line.words.str().find("timestamp") != std::string::npos) return;
+        StampedVector linear, angular;
+        linear.stamp_s = angular.stamp_s = line.realNumber(form);
+        for (StampedVector* reading : {&linear, &angular}) {
+            for (int i = 0; i < 3; ++i) reading->value[i] = line.realNumber(form);
+        }
+        sequence.acceleration.push_back(linear);
+        sequence.angular_velocity.push_back(angular);
+    });
+    if (sequence.acceleration.empty()) return;
+    const bool in_g = medianNorm(sequence.acceleration) < most_g;
+    const double factor = in_g ? -standard_gravity : -1;
+    for (auto& reading : sequence.acceleration) reading.value *= factor;
+    sequence.notes.push_back(std::string("imu.csv: acceleration taken as iOS's, in ") +
+                             (in_g ? "g" : "m/s2") + " and with gravity's sign");
+}
+
 void refuseVideo(const std::string& folder) {
     if (!colorFolderIn(folder).empty()) return;
     throw Error("the color images of '" + folder + "' are still a video, rgb.mp4",
@@ -118,9 +159,8 @@ RgbdSequence readStrayScanner(const std::string& folder) {
         strayCamera(folder, (fs::path(folder) / sequence.color.front().file).string());
     sequence.notes.push_back(
         "the phone's own poses (odometry.csv) are an estimate: not taken as ground truth");
-    if (fs::exists(fs::path(folder) / "imu.csv")) {
-        sequence.notes.push_back("imu.csv is left out: its axes on the camera are not documented");
-    }
+    sequence.camera->T_sensor_imu = phoneImuAxes();
+    readStrayImu(fs::path(folder) / "imu.csv", sequence);
     return sequence;
 }
 

@@ -11,9 +11,10 @@ bool isStrayScanner(const std::string& folder);
 
 /** Color from rgb/ (frames extracted from rgb.mp4), small depth in mm, confidence images, stamps
  *  from odometry.csv (`timestamp, frame, x, y, z, qx, qy, qz, qw`), the 3x3 camera_matrix.csv. The
- *  phone's own poses are an estimate and no ground truth; the axes of imu.csv are not documented:
- *  both are left out, which the notes say.
- *  \throws Error when the frames are still a video, or naming file and line of another form */
+ *  phone's own poses are an estimate and no ground truth: they are left out, which the notes say.
+ *  imu.csv (`timestamp, a_x, a_y, a_z, alpha_x, alpha_y, alpha_z`) holds what iOS gives:
+ * acceleration in g with gravity's sign, turned to m/s^2 as felt, and rad/s. \throws Error when the
+ * frames are still a video, or naming file and line of another form */
 RgbdSequence readStrayScanner(const std::string& folder);
 
 /** Whether a folder holds an export of Record3D: rgb/, depth/ and metadata (.json) with a matrix K.

@@ -46,6 +46,11 @@ class StreamWriter : public RawlogWriter {
         write(frame);
     }
 
+    void writePair(mrpt::obs::CObservationStereoImages& pair, const std::string&,
+                   const std::string&) override {
+        write(pair);
+    }
+
     /** Before compression. */
     std::uint64_t bytes() { return file_.getPosition(); }
 
@@ -75,25 +80,35 @@ class CompactWriter : public EmbeddedWriter {
 
     void writeFrame(mrpt::obs::CObservation3DRangeScan& frame,
                     const std::string& color_file) override {
-        const std::string name = frame.sensorLabel + "_" + stampText(toSeconds(frame.timestamp));
-        storeColor(frame, name, color_file);
+        const std::string name = nameOf(frame);
+        storeImage(frame.intensityImage, name + "_color", color_file);
         storeDepth(frame, name);
         write(frame);
     }
 
+    void writePair(mrpt::obs::CObservationStereoImages& pair, const std::string& left_file,
+                   const std::string& right_file) override {
+        storeImage(pair.imageLeft, nameOf(pair) + "_left", left_file);
+        storeImage(pair.imageRight, nameOf(pair) + "_right", right_file);
+        write(pair);
+    }
+
   private:
-    void storeColor(mrpt::obs::CObservation3DRangeScan& frame, const std::string& name,
-                    const std::string& color_file) const {
-        const std::string extension = fs::path(color_file).extension().string();
+    static std::string nameOf(const mrpt::obs::CObservation& observation) {
+        return observation.sensorLabel + "_" + stampText(toSeconds(observation.timestamp));
+    }
+
+    void storeImage(mrpt::img::CImage& image, const std::string& name,
+                    const std::string& file) const {
+        const std::string extension = fs::path(file).extension().string();
         const bool as_it_is = extension == ".png" || extension == ".jpg" || extension == ".jpeg";
-        const fs::path target = images_ / (name + "_color" + (as_it_is ? extension : ".png"));
+        const fs::path target = images_ / (name + (as_it_is ? extension : ".png"));
         std::error_code failure;
-        const bool stored = as_it_is
-                                ? fs::copy_file(color_file, target, failure)
-                                : cv::imwrite(target.string(), frame.intensityImage.asCvMatRef());
+        const bool stored = as_it_is ? fs::copy_file(file, target, failure)
+                                     : cv::imwrite(target.string(), image.asCvMatRef());
         if (!stored) throw WriteFailure();
-        frame.intensityImage = mrpt::img::CImage();
-        frame.intensityImage.setExternalStorage(target.filename().string());
+        image = mrpt::img::CImage();
+        image.setExternalStorage(target.filename().string());
     }
 
     void storeDepth(mrpt::obs::CObservation3DRangeScan& frame, const std::string& name) const {

@@ -8,6 +8,7 @@
 
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/sequence_layout.h"
+#include "rgbd_graphslam/dataset/stereo_sequence.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;
@@ -64,6 +65,10 @@ std::size_t archiveEndingOf(const std::string& path) {
     return 0;
 }
 
+bool isSequence(const std::string& folder) {
+    return layoutOf(folder) || isStereoFolder(folder);
+}
+
 }  // namespace
 
 bool isSequenceArchive(const std::string& path) {
@@ -80,12 +85,13 @@ UnpackedArchive::UnpackedArchive(const std::string& archive, const std::string& 
 }
 
 std::string UnpackedArchive::sequenceFolder() const {
-    if (layoutOf(folder_.path())) return folder_.path();
+    if (isSequence(folder_.path())) return folder_.path();
     for (const auto& entry : fs::recursive_directory_iterator(folder_.path())) {
-        if (layoutOf(entry.path().string())) return entry.path().string();
+        if (isSequence(entry.path())) return entry.path().string();
     }
-    throw Error("there is no sequence in the archive '" + archive_ + "'",
-                "give an archive of the TUM RGB-D benchmark or another with RGB-D images");
+    throw Error(
+        "there is no sequence in the archive '" + archive_ + "'",
+        "give an archive of the TUM RGB-D benchmark or another with RGB-D or stereo images");
 }
 
 }  // namespace rgbd_graphslam

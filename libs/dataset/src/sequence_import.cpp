@@ -38,8 +38,10 @@ DepthStamps depthStampsOf(const std::vector<FramePair>& pairs) {
 /** Over a sequence, so many frames are looked at for how depth lies to color. */
 constexpr std::size_t frames_checked = 20;
 
-/** What is wrong with depth's unit, and which would be plausible; empty when nothing is. */
-std::string doubtOfUnits(const DepthHistogram& depth, double units, bool assumed) {
+/** What is wrong with depth's unit, and which would be plausible; empty when nothing is.
+ *  \param camera_file where the unit may be stated */
+std::string doubtOfUnits(const DepthHistogram& depth, double units, bool assumed,
+                         const std::string& camera_file) {
     const DepthSummary summary = summarize(depth, 1 / units);
     const auto better = plausibleDepthUnits(depth, units, assumed);
     if (!better && !isImplausible(summary)) return {};
@@ -50,10 +52,10 @@ std::string doubtOfUnits(const DepthHistogram& depth, double units, bool assumed
                   units, assumed ? " (assumed, nothing states it)" : "", summary.median_m,
                   summary.far_m);
     const std::string found = text;
-    if (!better) return found + "; check depth_units and depth_scale in camera.ini";
+    if (!better) return found + "; check depth_units and depth_scale in " + camera_file;
     std::snprintf(text, sizeof text, "; depth_units = %.6g would give a median of %.2g m", *better,
                   summary.median_m * units / *better);
-    return found + text + ": set it in camera.ini or pass --depth-units";
+    return found + text + ": set it in " + camera_file + " or pass --depth-units";
 }
 
 std::string depthMaxText(const DepthSummary& summary, double depth_max_m) {
@@ -213,12 +215,19 @@ class Import {
     void judgeDepthUnit() {
         report_.depth_summary = summarize(depth_histogram_, setup_.depthUnitInMetres());
         const double units = 1 / setup_.depthUnitInMetres();
-        const std::string doubt = doubtOfUnits(depth_histogram_, units, setup_.depth_units_assumed);
+        const std::string doubt =
+            doubtOfUnits(depth_histogram_, units, setup_.depth_units_assumed, unitsFile());
         if (!doubt.empty()) report_.warnings.push_back(doubt);
         if (setup_.depth_units_assumed && doubt.empty()) {
             report_.notes.push_back("depth_units: nothing states it, " + shortest(units) +
                                     " assumed");
         }
+    }
+
+    /** Where the depth images' unit may stand: depth that another camera took has that one's. */
+    std::string unitsFile() const {
+        return options_.depth_camera ? fs::path(options_.depth_camera->name).filename().string()
+                                     : "camera.ini";
     }
 
     /** Far depth is no fault of the recording, and rgbd-slam adapts to it. */
@@ -240,22 +249,6 @@ class Import {
     DepthHistogram depth_histogram_;
     SensorEntries sensors_;
 };
-
-std::string tallyText(const std::string& name, const std::string& other, const ImageTally& tally) {
-    std::string text = name + ": " + std::to_string(tally.listed) + " listed, " +
-                       std::to_string(tally.leftOver()) + " left over";
-    std::string reasons;
-    const auto reason = [&](std::size_t count, const std::string& why) {
-        if (count > 0) reasons += (reasons.empty() ? "" : ", ") + std::to_string(count) + " " + why;
-    };
-    reason(tally.no_partner, "without " + other + " near enough");
-    reason(tally.partner_taken, "whose " + other + " went to a nearer one");
-    reason(tally.missing, "files missing, the first: '" + tally.first_missing + "'");
-    reason(tally.repeated, "stamps repeated");
-    if (!reasons.empty()) text += " (" + reasons + ")";
-    return text + "; " + std::to_string(tally.backwards) + " stamps go back, " +
-           std::to_string(tally.repeated) + " repeat\n";
-}
 
 }  // namespace
 

@@ -9,8 +9,8 @@
 #include "numbered_files.h"
 #include "phone_folders.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/dataset/stereo_sequence.h"
 #include "rgbd_graphslam/dataset/tum_sequence.h"
-#include "stereo_folders.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;
@@ -93,7 +93,8 @@ std::string sequenceBelow(const std::string& folder) {
     std::string first;
     for (const auto& entry : fs::directory_iterator(folder)) {
         const std::string path = entry.path();
-        if ((first.empty() || path < first) && layoutOf(path)) first = path;
+        const bool is_sequence = layoutOf(path) || isStereoFolder(path);
+        if ((first.empty() || path < first) && is_sequence) first = path;
     }
     return first;
 }
@@ -140,11 +141,10 @@ SequenceLayout detectLayout(const std::string& folder) {
         fs::exists(fs::path(folder) / "rgb.txt") || fs::exists(fs::path(folder) / "depth.txt");
     if (!layout && has_a_list) return SequenceLayout::Tum;
     if (layout) return *layout;
-    refuseStereo(folder);
     const std::string below = sequenceBelow(folder);
     throw Error("'" + folder +
                     "' has no rgb.txt and depth.txt, no associations.txt, no folders rgb/ or "
-                    "color/ and depth/ and no frame-000000.depth.png",
+                    "color/ and depth/, no frame-000000.depth.png and no stereo images",
                 below.empty() ? "give the folder of a sequence" : "did you mean '" + below + "'?");
 }
 

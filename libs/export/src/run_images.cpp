@@ -58,11 +58,11 @@ class ImageReader {
     ImageReader(std::string label, const std::function<void(const RunImage&)>& consume)
         : label_(std::move(label)), consume_(consume) {}
 
-    std::size_t read(const std::string& rawlog, const std::vector<NumberedKeyframe>& poses) {
+    std::size_t read(const RecordedCamera& camera, const std::vector<NumberedKeyframe>& poses) {
         if (poses.empty()) return 0;
         Trajectory trajectory;
         for (const NumberedKeyframe& pose : poses) trajectory.push_back(pose.pose);
-        return forEachKeyframe(rawlog, trajectory, label_, [&](const Keyframe3D& frame) {
+        return forEachKeyframe(camera, trajectory, label_, [&](const Keyframe3D& frame) {
             pass(frame, poses[frame.index].number);
         });
     }
@@ -89,17 +89,17 @@ std::size_t readKeyframes(const MapInputs& run, ImageReader& reader) {
     auto begin = placed.begin();
     int session_end = 0;
     std::size_t read = 0;
-    const auto readUpTo = [&](int end, const std::string& rawlog) {
+    const auto readUpTo = [&](int end, const RecordedCamera& camera) {
         const auto stop = std::find_if(begin, placed.end(),
                                        [&](const NumberedKeyframe& k) { return k.number >= end; });
-        read += reader.read(rawlog, {begin, stop});
+        read += reader.read(camera, {begin, stop});
         begin = stop;
     };
     for (const EarlierSession& session : run.earlier) {
         session_end += static_cast<int>(session.keyframes);
-        readUpTo(session_end, session.rawlog);
+        readUpTo(session_end, {session.rawlog, session.sensor_label});
     }
-    readUpTo(static_cast<int>(run.keyframes.size()), run.rawlog);
+    readUpTo(static_cast<int>(run.keyframes.size()), {run.rawlog, run.sensor_label});
     return read;
 }
 
@@ -148,7 +148,7 @@ std::size_t forEachImage(const MapInputs& run, bool all_frames, const std::strin
     std::vector<NumberedKeyframe> frames;
     for (const StampedPose& pose : run.trajectory)
         frames.push_back({static_cast<int>(frames.size()), pose});
-    return reader.read(run.rawlog, frames);
+    return reader.read({run.rawlog, run.sensor_label}, frames);
 }
 
 std::string imageName(const char* prefix, int number, const char* extension) {

@@ -117,6 +117,13 @@ class FrameStream::Implementation {
     /** \throws Error saying what the source has in place of frames of the camera asked for */
     [[noreturn]] void refuse() const {
         const std::string holds = "; it has " + sensorsText(census_.sensors(), false);
+        const std::size_t pairs = census_.stereoPairs();
+        if (sensor_label_.empty() && pairs > 0) {
+            throw Error("the rawlog '" + rawlog + "' has " + std::to_string(pairs) +
+                            " stereo pairs and no depth: stereo is not tracked yet",
+                        "compute depth images by stereo matching and import them with the left "
+                        "images, as rgb/ and depth/");
+        }
         if (sensor_label_.empty()) {
             throw Error(source_->name() + " has no RGB-D frame (CObservation3DRangeScan)" + holds,
                         "import a sequence with rgbd-import");

@@ -33,6 +33,14 @@ void SensorCensus::leaveOut(const std::string& label) {
     }
 }
 
+std::size_t SensorCensus::stereoPairs() const {
+    std::size_t pairs = 0;
+    for (const SensorRecord& sensor : sensors_) {
+        if (sensor.class_name == "CObservationStereoImages") pairs += sensor.count;
+    }
+    return pairs;
+}
+
 std::string sensorsText(const std::vector<SensorRecord>& sensors, bool used) {
     std::string text;
     for (const SensorRecord& sensor : sensors) {

@@ -69,10 +69,17 @@ Json mapJson(const SlamJob& job) {
             {"use", job.localizes() ? "localize" : "extend"}};
 }
 
+/** Of a camera; null = that of the first frame. */
+Json labelJson(const std::string& label) {
+    return label.empty() ? Json(nullptr) : Json(label);
+}
+
 Json earlierJson(const JobReport& report) {
     Json sessions = Json::array();
     for (const EarlierSession& session : report.earlier) {
-        sessions.push_back({{"rawlog", session.rawlog}, {"keyframes", session.keyframes}});
+        sessions.push_back({{"rawlog", session.rawlog},
+                            {"sensor", labelJson(session.sensor_label)},
+                            {"keyframes", session.keyframes}});
     }
     return sessions;
 }
@@ -178,7 +185,7 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"config_hash", configHash(job.options)},
         {"origin", originJson(report.camera)},
         {"rawlog", std::filesystem::absolute(job.rawlog).lexically_normal().string()},
-        {"sensor", job.sensor_label.empty() ? Json(nullptr) : Json(job.sensor_label)},
+        {"sensor", labelJson(job.sensor_label)},
         {"sensors", sensorsJson(report)},
         {"map", mapJson(job)},
         {"earlier_sessions", earlierJson(report)},

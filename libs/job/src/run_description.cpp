@@ -78,7 +78,8 @@ void describeEarlierSessions(RunState& run) {
     const auto all = run.sessions();
     for (std::size_t s = 0; s + 1 < all.size(); ++s) {
         const int keyframes = all[s + 1].first_keyframe - all[s].first_keyframe;
-        run.report.earlier.push_back({all[s].rawlog, static_cast<std::size_t>(keyframes)});
+        run.report.earlier.push_back(
+            {all[s].rawlog, static_cast<std::size_t>(keyframes), all[s].sensor_label});
     }
 }
 

@@ -12,6 +12,7 @@
 #include "rgbd_graphslam/core/process_usage.h"
 #include "rgbd_graphslam/core/thread_clock.h"
 #include "rgbd_graphslam/mapping/map_builder.h"
+#include "rgbd_graphslam/mapping/run_folder.h"
 #include "rgbd_graphslam/metrics/statistics.h"
 #include "rgbd_graphslam/report/run_report.h"
 
@@ -115,7 +116,9 @@ void writeMap(RunState& run) {
     const ThreadClock quality_clock;
     describeMapQuality(inputs, map, run);
     sayDetail(formatted("figures of quality took %.0f ms", quality_clock.wallMs()));
-    const MapInputs upright = transformed(T_up_world, inputs);
+    MapInputs upright = transformed(T_up_world, inputs);
+    upright.up_is_guessed =
+        run.start ? upIsGuessed(run.job.map_folder) : tellOfGuessedUp(run.allWarnings());
     writeAllPoses(run, upright, T_up_world);
     run.report.camera = map.rig.cameras.front().model.intrinsics();
     writeSparseMap(pathOf(run, sparse_map_name),

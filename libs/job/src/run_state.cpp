@@ -87,7 +87,7 @@ std::vector<MapSession> RunState::sessions() const {
     std::vector<MapSession> all;
     if (start) all = start->sessions;
     const std::string rawlog = std::filesystem::absolute(job.rawlog).lexically_normal().string();
-    all.push_back({rawlog, first_keyframe});
+    all.push_back({rawlog, first_keyframe, job.sensor_label});
     return all;
 }
 

@@ -29,13 +29,6 @@ void checkFolders(const SlamJob& job) {
                 "choose another output folder");
 }
 
-/** Images of earlier sessions are looked for by the first camera only. */
-void checkCamera(const SlamJob& job) {
-    if (job.sensor_label.empty() || job.map_use != MapUse::Extend || job.map_folder.empty()) return;
-    throw Error("--extend works with the first RGB-D camera of a rawlog only, not with --sensor",
-                "leave out --sensor, or --localize");
-}
-
 /** \throws Error when the job is strict and the recording makes a wrong map */
 void tellOfRecording(const RunState& run) {
     sayDetail("depth: " + toText(run.survey.depth()));
@@ -78,7 +71,6 @@ SlamJob resumedJob(const std::string& out_folder) {
 
 JobReport runSlamJob(const SlamJob& job) {
     checkFolders(job);
-    checkCamera(job);
     auto start = readStart(job);
     makeWritableFolder(job.out_folder);
     RunState run(job, std::move(start));

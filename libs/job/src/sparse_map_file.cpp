@@ -1,5 +1,7 @@
 #include "rgbd_graphslam/job/sparse_map_file.h"
 
+#include <algorithm>
+
 #include "rgbd_graphslam/slam/map_encoding.h"
 #include "sealed_file.h"
 
@@ -12,6 +14,9 @@ const FileKind map_file{"RGBDMAP\n",
                         "give the output folder of a run of rgbd-slam",
                         "give a map.sparse",
                         "copy it again or make it again"};
+
+/** No path holds it: what follows is the camera's label, where there is one. */
+constexpr char behind_path = '\0';
 
 SparseMap decode(ByteReader& in) {
     SparseMap map;
@@ -28,7 +33,8 @@ SparseMap decode(ByteReader& in) {
 void encode(const std::vector<MapSession>& sessions, ByteWriter& out) {
     out.putCount(sessions.size());
     for (const MapSession& session : sessions) {
-        out.putText(session.rawlog);
+        const std::string& label = session.sensor_label;
+        out.putText(label.empty() ? session.rawlog : session.rawlog + behind_path + label);
         out.put<std::int32_t>(session.first_keyframe);
     }
 }
@@ -36,7 +42,10 @@ void encode(const std::vector<MapSession>& sessions, ByteWriter& out) {
 std::vector<MapSession> decodeSessions(ByteReader& in) {
     std::vector<MapSession> sessions(in.getCount(2 * sizeof(std::uint32_t)));
     for (MapSession& session : sessions) {
-        session.rawlog = in.getText();
+        const std::string text = in.getText();
+        const auto end = std::min(text.find(behind_path), text.size());
+        session.rawlog = text.substr(0, end);
+        if (end < text.size()) session.sensor_label = text.substr(end + 1);
         session.first_keyframe = in.get<std::int32_t>();
     }
     return sessions;

@@ -161,6 +161,11 @@ double ceilingCut(const Trajectory& path, double lowest_m) {
     return cut_m;
 }
 
+double pictureCeiling(const MapInputs& inputs) {
+    if (inputs.up_is_guessed) return std::numeric_limits<double>::infinity();
+    return ceilingCut(inputs.trajectory);
+}
+
 std::vector<std::size_t> sparseKeyframes(const Trajectory& keyframes, double least_m,
                                          double least_rad) {
     KeptKeyframes kept(keyframes, least_m, std::cos(least_rad));

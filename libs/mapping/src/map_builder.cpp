@@ -83,7 +83,7 @@ std::vector<Recording> recordingsOf(const MapInputs& inputs) {
     for (const EarlierSession& session : inputs.earlier) {
         const Trajectory keyframes(begin, begin + static_cast<std::ptrdiff_t>(session.keyframes));
         begin += static_cast<std::ptrdiff_t>(session.keyframes);
-        recordings.push_back({session.rawlog, keyframes, keyframes, true});
+        recordings.push_back({{session.rawlog, session.sensor_label}, keyframes, keyframes, true});
     }
     recordings.push_back({{inputs.rawlog, inputs.sensor_label},
                           {begin, inputs.keyframes.end()},

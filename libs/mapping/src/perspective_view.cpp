@@ -138,7 +138,7 @@ class PerspectiveSheet {
 
 cv::Mat3b perspectiveView(const MapInputs& inputs, const PointMap& points, double spacing_m,
                           const cv::Size& size_px) {
-    const double highest_m = ceilingCut(inputs.trajectory);
+    const double highest_m = pictureCeiling(inputs);
     const Framing framing = framingOf(points, inputs.keyframes, inputs.trajectory, highest_m);
     PerspectiveSheet sheet(cameraFor(framing, {size_px.width, size_px.height}), size_px);
     const FloorGrid grid = floorGrid(framing.box);

@@ -92,7 +92,7 @@ void drawPaths(Paper& paper_sheet, const MapInputs& inputs) {
 }  // namespace
 
 cv::Mat3b planView(const MapInputs& inputs, const PointMap& points, int longer_side_px) {
-    const double ceiling_m = ceilingCut(inputs.trajectory);
+    const double ceiling_m = pictureCeiling(inputs);
     Paper paper_sheet(framingOf(points, inputs.keyframes, inputs.trajectory, ceiling_m).box,
                       longer_side_px);
     drawPoints(paper_sheet, points, static_cast<float>(ceiling_m));

@@ -54,11 +54,17 @@ std::vector<MapLoopEdge> loopsOf(const nlohmann::json& summary) {
     return loops;
 }
 
+/** Label of the camera; empty = that of the first frame. */
+std::string sensorOf(const nlohmann::json& session) {
+    const auto label = session.value("sensor", nlohmann::json());
+    return label.is_string() ? label.get<std::string>() : std::string();
+}
+
 std::vector<EarlierSession> earlierSessionsOf(const nlohmann::json& summary) {
     std::vector<EarlierSession> sessions;
     for (const auto& session : summary.value("earlier_sessions", nlohmann::json::array())) {
-        sessions.push_back(
-            {session.at("rawlog").get<std::string>(), session.at("keyframes").get<std::size_t>()});
+        sessions.push_back({session.at("rawlog").get<std::string>(),
+                            session.at("keyframes").get<std::size_t>(), sensorOf(session)});
     }
     return sessions;
 }
@@ -87,15 +93,22 @@ std::vector<double> unplacedFrames(const fs::path& frames_csv, const Trajectory&
 
 }  // namespace
 
-bool upIsGuessed(const std::string& folder) {
+bool tellOfGuessedUp(const std::vector<std::string>& warnings) {
     constexpr const char* earlier_words = "as if it had been level";  // of older versions
-    const auto warnings =
-        readSummary(fs::path(folder) / "summary.json").value("warnings", nlohmann::json::array());
-    return std::any_of(warnings.begin(), warnings.end(), [&](const nlohmann::json& warning) {
-        const std::string text = warning.is_string() ? warning.get<std::string>() : std::string();
+    return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& text) {
         return text.find(guessed_up) != std::string::npos ||
                text.find(earlier_words) != std::string::npos;
     });
+}
+
+bool upIsGuessed(const std::string& folder) {
+    std::vector<std::string> texts;
+    const auto warnings =
+        readSummary(fs::path(folder) / "summary.json").value("warnings", nlohmann::json::array());
+    for (const auto& warning : warnings) {
+        if (warning.is_string()) texts.push_back(warning.get<std::string>());
+    }
+    return tellOfGuessedUp(texts);
 }
 
 MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
@@ -121,8 +134,8 @@ MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
     try {
         inputs.loops = loopsOf(summary);
         inputs.earlier = earlierSessionsOf(summary);
-        const auto label = summary.value("sensor", nlohmann::json());
-        if (label.is_string()) inputs.sensor_label = label.get<std::string>();
+        inputs.sensor_label = sensorOf(summary);
+        inputs.up_is_guessed = upIsGuessed(folder);
         const bool is_old = summary.contains("apart_keyframes");  // as the first edition wrote it
         inputs.disconnected = summary.value(is_old ? "apart_keyframes" : "disconnected_keyframes",
                                             std::vector<int>());

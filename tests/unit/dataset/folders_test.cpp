@@ -129,6 +129,15 @@ TEST_F(Folders, calibrationOfTheFolder) {
     EXPECT_EQ(imported(sequence, *camera).size(), 1u);
 }
 
+TEST_F(Folders, aPrincipalPointOutsideTheImageIsRefused) {
+    image("rgb/000000.png", color(0));
+    image("depth/000000.png", depth(0));
+    folder_.write("s/intrinsics.json", R"({"fx": 30, "fy": 31, "cx": 40, "cy": 11.5})");
+    const RgbdSequence sequence = read(SequenceLayout::Folders);
+    EXPECT_THAT(problemOf([&] { layoutCamera(sequence, SequenceLayout::Folders); }),
+                HasSubstr("intrinsics.json': the principal point (cx 40, cy 11.5) is outside"));
+}
+
 TEST_F(Folders, emptyFoldersAndNamesWithoutNumbers) {
     fs::create_directories(folder_ / "s/rgb");
     fs::create_directories(folder_ / "s/depth");
@@ -174,6 +183,24 @@ TEST_F(Phone, strayScanner) {
     EXPECT_EQ(images[1].depth.at<std::uint16_t>(0, 5), 0) << "no confidence";
     EXPECT_EQ(images[1].depth.at<std::uint16_t>(1, 5), 1001) << "medium confidence";
     EXPECT_NEAR(images[1].depth_unit_m, 0.001, 1e-9);
+}
+
+/** On its side, so that images are upright, its right side up; turning to the left. */
+TEST_F(Phone, strayScannersImu) {
+    for (const double unit : {1.0, 9.80665}) {
+        writeStray();
+        folder_.write("s/imu.csv", "timestamp, a_x, a_y, a_z, alpha_x, alpha_y, alpha_z\n5000.5, " +
+                                       std::to_string(-unit) + ", 0, 0, 0.25, 0, 0\n");
+        const RgbdSequence sequence = read(SequenceLayout::StrayScanner);
+        ASSERT_EQ(sequence.acceleration.size(), 1u);
+        const Eigen::Matrix3d& R_camera_imu = sequence.camera->T_sensor_imu.R;
+        const Eigen::Vector3d felt = R_camera_imu * sequence.acceleration[0].value,
+                              turn = R_camera_imu * sequence.angular_velocity[0].value;
+        EXPECT_LT((felt - Eigen::Vector3d(0, 0, 9.80665)).norm(), 1e-4);
+        EXPECT_LT((turn - Eigen::Vector3d(0, 0, 0.25)).norm(), 1e-9);
+        EXPECT_NEAR(sequence.angular_velocity[0].stamp_s, 5000.5, 1e-9);
+        EXPECT_THAT(sequence.notes, Contains(HasSubstr(unit == 1 ? "in g" : "in m/s2")));
+    }
 }
 
 TEST_F(Phone, strayScannersVideoAndDamage) {
@@ -293,18 +320,6 @@ TEST_F(Folders, filesOfOtherKindsAreNamed) {
                 HasSubstr("ffmpeg"));
     EXPECT_THAT(problem("a.txt", "hello"), HasSubstr("not a folder"));
     EXPECT_THAT(problem("b", ""), HasSubstr("is empty"));
-}
-
-TEST_F(Folders, stereoIsRecognized) {
-    for (int i = 0; i < 2; ++i) {
-        folder_.write("s/mav0/cam0/data/" + std::to_string(i) + ".png", "x");
-        folder_.write("s/mav0/cam1/data/" + std::to_string(i) + ".png", "x");
-        folder_.write("k/image_0/" + std::to_string(i) + ".png", "x");
-        folder_.write("k/image_1/" + std::to_string(i) + ".png", "x");
-    }
-    EXPECT_THAT(problemOf([&] { detectLayout(source()); }),
-                HasSubstr("EuRoC: recognized, 2 pairs"));
-    EXPECT_THAT(problemOf([&] { detectLayout(folder_ / "k"); }), HasSubstr("KITTI"));
 }
 
 TEST_F(Folders, aFolderTooHighIsToldWhereTheSequenceIs) {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <opencv2/imgproc.hpp>
 
+#include "../../support/problem_of.h"
 #include "../../support/tum_folder.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
@@ -120,6 +121,15 @@ TEST_F(ImportPlausibility, depthOfAFractionIsResampledWhereAspectsAgree) {
         if (u % 15 == 7) continue;  // in the middle between two
         ASSERT_EQ(large(25, u), small(3, static_cast<int>((u + 0.5) / 7.5))) << u;
     }
+}
+
+TEST_F(ImportPlausibility, theUnitOfDepthThatIsRegisteredIsItsOwnCameras) {
+    for (int i = 0; i < 3; ++i) add(noise(64, 48, i), readings(64, 48, i, 10, 100));
+    ImportOptions options;
+    options.strict = true;
+    options.depth_camera = readCameraFile(folder_ / "s/camera.ini");
+    options.depth_camera->name = "elsewhere/camera_depth.ini";
+    EXPECT_THAT(complaint(options), HasSubstr("in camera_depth.ini"));
 }
 
 TEST_F(ImportPlausibility, depthOfAnotherAspectIsRefused) {

@@ -1,12 +1,16 @@
 #include <gmock/gmock.h>
 
+#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "../../support/problem_of.h"
 #include "../../support/tum_folder.h"
 #include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/dataset/rawlog_writer.h"
+#include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/export/exporter.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/mapping/map_files.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -74,6 +78,35 @@ TEST_F(ExportRun, writesIntoAFolderThatIsThere) {
     const auto both = exportRun(folder_ / "run", {"tum", "kitti", "tum"}, {}, folder_ / "new");
     EXPECT_EQ(both.size(), 2u);
     EXPECT_TRUE(fs::exists(folder_ / "new/trajectory_kitti.txt"));
+}
+
+/** Two cameras with the same stamps, the second one's images brighter. */
+TEST_F(ExportRun, takesTheImagesOfTheCameraThatWasTracked) {
+    const CameraSetup setup;
+    const cv::Size size(setup.camera.width, setup.camera.height);
+    writeRawlog(folder_ / "a.rawlog", RawlogStorage::Embedded, [&](RawlogWriter& writer) {
+        for (const StampedPose& pose : poses_) {
+            for (const auto& [label, gray] : {std::pair("FRONT", 40), std::pair("REAR", 200)}) {
+                const auto frame = makeRgbdObservation(setup, pose.stamp_s);
+                setColor(*frame, cv::Mat(size, CV_8UC3, cv::Scalar::all(gray)));
+                setDepth(*frame, cv::Mat(size, CV_16UC1, cv::Scalar(5000)));
+                frame->sensorLabel = label;
+                writer.write(*frame);
+            }
+        }
+    });
+    const std::string rawlog = R"("rawlog": ")" + folder_ / "a.rawlog" + "\"";
+    folder_.write("run/keyframes.txt", toTumText(poses_));
+    folder_.write("run/summary.json", "{" + rawlog +
+                                          R"(, "sensor": "REAR", "earlier_sessions": [{)" + rawlog +
+                                          R"(, "keyframes": 1, "sensor": "FRONT"}]})");
+    savePly(folder_ / "run/points.ply", PointMap{{Eigen::Vector3f(0, 0, 1), {1, 2, 3}}});
+    write("nerfstudio", folder_ / "scene");
+    const auto grayOf = [&](const char* name) {
+        return cv::mean(cv::imread(folder_ / (std::string("scene/images/") + name)))[0];
+    };
+    EXPECT_NEAR(grayOf("frame_000000.jpg"), 40, 2);
+    EXPECT_NEAR(grayOf("frame_000001.jpg"), 200, 2);
 }
 
 TEST_F(ExportRun, doesNotReplaceAFolderOfSomeoneElse) {

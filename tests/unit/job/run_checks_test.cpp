@@ -156,6 +156,20 @@ TEST_F(RunWithTwoCameras, anotherIsChosenByItsLabel) {
     EXPECT_EQ(readRunFolder(job_.out_folder, "").sensor_label, "REAR");
 }
 
+TEST_F(RunWithTwoCameras, anExtendedMapKnowsTheCameraOfEachSession) {
+    job_.sensor_label = "REAR";
+    runSlamJob(job_);
+    job_.map_folder = job_.out_folder;
+    job_.map_use = MapUse::Extend;
+    job_.out_folder = folder_ / "extended";
+    runSlamJob(job_);
+    const MapInputs inputs = readRunFolder(job_.out_folder, "");
+    ASSERT_EQ(inputs.earlier.size(), 1u);
+    EXPECT_EQ(inputs.earlier[0].sensor_label, "REAR");
+    EXPECT_EQ(inputs.earlier[0].rawlog, job_.rawlog);
+    EXPECT_EQ(inputs.sensor_label, "REAR");
+}
+
 TEST_F(RunWithTwoCameras, oneThatIsNotThereIsRefusedWithThoseThatAre) {
     job_.sensor_label = "TOP";
     const std::string problem = problemOf([&] { runSlamJob(job_); });

@@ -21,7 +21,7 @@ SparseMap smallMap() {
     sparse.snapshot = takeSnapshot(map, rigOf(CameraModel{}), 1.25, {});
     sparse.T_up_world.t = {1, 2, 3};
     sparse.config_hash = "0123456789abcdef";
-    sparse.sessions = {{"/data/monday.rawlog", 0}, {"/data/tuesday.rawlog", 2}};
+    sparse.sessions = {{"/data/monday.rawlog", 0}, {"/data/tuesday.rawlog", 2, "REAR"}};
     return sparse;
 }
 
@@ -57,6 +57,8 @@ TEST_F(SparseMapFile, comesBack) {
     ASSERT_EQ(map.sessions.size(), 2u);
     EXPECT_EQ(map.sessions[1].rawlog, "/data/tuesday.rawlog");
     EXPECT_EQ(map.sessions[1].first_keyframe, 2);
+    EXPECT_EQ(map.sessions[0].sensor_label, "");
+    EXPECT_EQ(map.sessions[1].sensor_label, "REAR");
 }
 
 /** The format is fixed: these bytes are the same on every machine. */

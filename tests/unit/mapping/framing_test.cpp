@@ -87,6 +87,13 @@ TEST(CeilingCut, isAboveTheCamera) {
     EXPECT_DOUBLE_EQ(ceilingCut({{0, {Eigen::Matrix3d::Identity(), {0, 0, 2.5}}}}), 2.6);
 }
 
+TEST(CeilingCut, isNotWhereUpIsAGuess) {
+    MapInputs inputs;
+    EXPECT_DOUBLE_EQ(pictureCeiling(inputs), 2);
+    inputs.up_is_guessed = true;
+    EXPECT_TRUE(std::isinf(pictureCeiling(inputs)));
+}
+
 TEST(SparseKeyframes, keepOneOfManyInAPlace) {
     EXPECT_EQ(sparseKeyframes(lookingAlongZ(101, 0.01), 0.195).size(), 6U);  // 1 m
     EXPECT_EQ(sparseKeyframes(lookingAlongZ(10, 0.3), 0.2).size(), 10U);

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
+
 namespace rgbd_graphslam {
 namespace {
 
@@ -33,6 +35,22 @@ TEST(PlanView, drawsNoPathAcrossLostFrames) {
     EXPECT_TRUE(pathAt(parts, 0.2));
     EXPECT_FALSE(pathAt(parts, 0.5));
     EXPECT_TRUE(pathAt(parts, 0.8));
+}
+
+TEST(PlanView, showsWhatIsHighWhereUpIsAGuess) {
+    MapInputs inputs = walkWithAHole();
+    const cv::Vec3b green(20, 250, 30);
+    PointMap points;
+    for (int i = 0; i <= 40; ++i) points.push_back({{0.1f * i, 1, 5}, {30, 250, 20}});
+    const auto shown = [&] {
+        const cv::Mat3b picture = planView(inputs, points, 400);
+        cv::Mat1b close;
+        cv::inRange(picture, green - cv::Vec3b(20, 100, 30), green + cv::Vec3b(5, 5, 5), close);
+        return cv::countNonZero(close);
+    };
+    EXPECT_EQ(shown(), 0);
+    inputs.up_is_guessed = true;
+    EXPECT_GT(shown(), 40);
 }
 
 }  // namespace

@@ -86,6 +86,21 @@ TEST(Findings, depthScaleIsNotBlamedForOtherErrors) {
     EXPECT_FALSE(depthScaleError(ate));
 }
 
+/** A scale that fits better explains 41 % of the squared error, as on a healthy walk along blank
+ *  walls. */
+TEST(Findings, depthScaleIsNotBlamedForDrift) {
+    AteResult ate;
+    ate.fitted_scale = 1.05;
+    for (int i = 0; i < 100; ++i) {
+        const Eigen::Vector3d place(std::cos(i), std::sin(i), 0);
+        ate.pairs.push_back(
+            {0.1 * i, place, 1.05 * place + Eigen::Vector3d(0, 0, i % 2 ? 0.06 : -0.06)});
+    }
+    EXPECT_FALSE(depthScaleError(ate));
+    for (AtePair& pair : ate.pairs) pair.truth_m.z() /= 3;
+    EXPECT_TRUE(depthScaleError(ate));
+}
+
 TEST(Findings, fewLandmarksAreSaid) {
     RunRecord run;
     for (int i = 0; i < 100; ++i) {

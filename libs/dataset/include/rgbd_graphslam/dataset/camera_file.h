@@ -47,6 +47,10 @@ std::optional<CameraSetup> cameraByFolderName(const std::string& folder);
  * line each; empty when the camera is plausible. */
 std::vector<std::string> doubtsOf(const Intrinsics& camera);
 
+/** \param name of the calibration, for the message
+ *  \throws Error when the principal point is outside the image */
+void requirePrincipalPoint(const Intrinsics& camera, const std::string& name);
+
 /** The same camera for images of another size, where these are `factor` times as large or small as
  *  the calibration says, in both directions.
  *  \return nothing unless the factor is 1, or 2 to 8 or one half to one eighth */

@@ -17,6 +17,9 @@ struct DecodedImage {
 /** Decodes PNG or JPEG to CV_8UC3, BGR, in the sensor's orientation. */
 DecodedImage readColorImage(const std::string& path);
 
+/** As readColorImage, but gray images become CV_8UC1, those of 16 bits, too. */
+DecodedImage readGrayOrColorImage(const std::string& path);
+
 /** Decodes a 16-bit PNG, TIFF or PGM to CV_16UC1; a 32-bit float TIFF in meters is converted.
  *  \param units of the result per meter, for float images
  *  \throws Error for whole images of another kind: 8 bit, OpenEXR, several channels */

@@ -2,6 +2,7 @@
 #pragma once
 #include <mrpt/obs/CObservation.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
+#include <mrpt/obs/CObservationStereoImages.h>
 
 #include <functional>
 #include <memory>
@@ -30,6 +31,10 @@ class RawlogWriter {
      * is PNG or JPEG, instead of encoding the pixels again. Empty when there is none */
     virtual void writeFrame(mrpt::obs::CObservation3DRangeScan& frame,
                             const std::string& color_file) = 0;
+
+    /** \param left_file, right_file as color_file above */
+    virtual void writePair(mrpt::obs::CObservationStereoImages& pair, const std::string& left_file,
+                           const std::string& right_file) = 0;
 };
 
 /** Calls `fill` with a writer. The rawlog and its images folder replace older ones of that name

@@ -26,6 +26,8 @@ class SensorCensus {
     void leaveOut(const std::string& label);
     /** In the order in which they first came. */
     const std::vector<SensorRecord>& sensors() const { return sensors_; }
+    /** Observations of stereo cameras. */
+    std::size_t stereoPairs() const;
 
   private:
     std::vector<SensorRecord> sensors_;

@@ -14,6 +14,8 @@ inline constexpr const char* sparse_map_name = "map.sparse";
 struct MapSession {
     std::string rawlog;  // absolute path
     int first_keyframe = 0;
+    /** Of its camera; empty = that of the first frame. */
+    std::string sensor_label = {};
 };
 
 void encode(const std::vector<MapSession>& sessions, ByteWriter& out);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/mapping/map_inputs.h"
 #include "rgbd_graphslam/mapping/point_fusion.h"
 
 namespace rgbd_graphslam {
@@ -29,6 +30,9 @@ Framing framingOf(const PointMap& points, const Trajectory& keyframes, const Tra
 /** Where pictures cut the ceiling off, so that rooms can be looked into: above people's heads and
  *  above the camera. */
 double ceilingCut(const Trajectory& path, double lowest_m = 2);
+
+/** ceilingCut() of the trajectory; infinite where up is a guess. */
+double pictureCeiling(const MapInputs& inputs);
 
 /** Keyframes to draw so that their frustums do not cover one another and the map: each differs from
  *  all that are kept before it by a distance or by its direction of view. Rising indices.

@@ -17,6 +17,7 @@ struct MapLoopEdge {
 struct EarlierSession {
     std::string rawlog;
     std::size_t keyframes = 0;
+    std::string sensor_label = {};  // of its camera; empty = that of the first frame
 };
 
 /** What maps are made of. Poses are of the camera's optical frame. */
@@ -35,6 +36,8 @@ struct MapInputs {
     std::vector<EarlierSession> earlier;
     /** Keyframes, by rising index, whose place relative to the others is unknown. */
     std::vector<int> disconnected;
+    /** z is hardly up: pictures cut no ceiling off. */
+    bool up_is_guessed = false;
 };
 
 /** How many keyframes each earlier session has: paths are not drawn from one to the next. */

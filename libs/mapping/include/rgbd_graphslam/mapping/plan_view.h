@@ -7,9 +7,9 @@
 
 namespace rgbd_graphslam {
 
-/** Looks straight down with the ceiling taken off: points below 2 m, or below the highest camera if
- *  that is higher, x to the right and y up, with the trajectory (orange), some keyframes (blue),
- *  loops (red) and a scale bar. Shows what framingOf() frames.
+/** Looks straight down with the ceiling taken off (unless up is a guess): points below 2 m, or
+ * below the highest camera if that is higher, x to the right and y up, with the trajectory
+ * (orange), some keyframes (blue), loops (red) and a scale bar. Shows what framingOf() frames.
  *  \param inputs upright
  *  \param longer_side_px of the picture
  *  \return CV_8UC3, BGR */
