@@ -30,7 +30,7 @@ int main(int argc, char** argv) try {
         if (!frame) continue;
         if (!session) session.emplace(options, *frame, std::move(map.snapshot), MapUse::Localize);
         const TrackedFrame tracked = session->step(frame);
-        const bool located = tracked.origin != FrameOrigin::Lost && tracked.part == 0;
+        const bool located = tracked.origin != FrameOrigin::Lost && tracked.submap == 0;
         if (!located) {
             std::printf("%.3f not located\n", tracked.stamp_s);
             continue;

@@ -119,7 +119,7 @@ class FrameStream::Implementation {
         const std::string holds = "; it has " + sensorsText(census_.sensors(), false);
         const std::size_t pairs = census_.stereoPairs();
         if (sensor_label_.empty() && pairs > 0) {
-            throw Error("the rawlog '" + rawlog + "' has " + std::to_string(pairs) +
+            throw Error(source_->name() + " has " + std::to_string(pairs) +
                             " stereo pairs and no depth: stereo is not tracked yet",
                         "compute depth images by stereo matching and import them with the left "
                         "images, as rgb/ and depth/");

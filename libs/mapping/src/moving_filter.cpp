@@ -10,13 +10,17 @@ namespace {
 constexpr std::size_t most_compared = 40;
 
 std::vector<int> blocksOfPixels(const PixelBlocks& blocks, const Camera& camera) {
+    const Camera pinhole = camera.pinhole();
     std::vector<int> result;
     result.reserve(static_cast<std::size_t>(camera.width) * camera.height);
     for (int v = 0; v < camera.height; ++v) {
         for (int u = 0; u < camera.width; ++u) {
-            const Eigen::Vector2d seen(u, v);
-            const Eigen::Vector2d pixel = camera.hasDistortion() ? camera.undistort(seen) : seen;
-            result.push_back(blocks.blockAt(pixel.x(), pixel.y()));
+            const Eigen::Vector2d pixel = camera.hasDistortion()
+                                              ? pinhole.project(camera.unproject(u, v, 1))
+                                              : Eigen::Vector2d(u, v);
+            // The border of a fisheye's image lies far outside of, or behind, its pinhole's.
+            const bool is_near = pixel.cwiseAbs().maxCoeff() < 1e6;
+            result.push_back(is_near ? blocks.blockAt(pixel.x(), pixel.y()) : -1);
         }
     }
     return result;
