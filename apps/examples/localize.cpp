@@ -3,6 +3,7 @@
 #include <mrpt/maps/COccupancyGridMap2D.h>
 #include <rgbd_graphslam/core/error.h>
 #include <rgbd_graphslam/dataset/rawlog_reader.h>
+#include <rgbd_graphslam/dataset/rgbd_observation.h>
 #include <rgbd_graphslam/graphslam/graph_slam_session.h>
 #include <rgbd_graphslam/job/sparse_map_file.h>
 #include <rgbd_graphslam/mapping/map_files.h>
@@ -28,7 +29,10 @@ int main(int argc, char** argv) try {
     while (const auto entry = rawlog.next()) {
         const auto frame = std::dynamic_pointer_cast<CObservation3DRangeScan>(entry);
         if (!frame) continue;
-        if (!session) session.emplace(options, *frame, std::move(map.snapshot), MapUse::Localize);
+        if (!session) {
+            session.emplace(options, Rig{{rigCameraOf(*frame)}}, std::move(map.snapshot),
+                            MapUse::Localize);
+        }
         const TrackedFrame tracked = session->step(frame);
         const bool located = tracked.origin != FrameOrigin::Lost && tracked.submap == 0;
         if (!located) {

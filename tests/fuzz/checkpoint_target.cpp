@@ -17,7 +17,7 @@ mrpt::obs::CObservation3DRangeScan::Ptr smallFrame(const SE3& T_world_base, doub
     static const TexturedRoom room;
     static const CameraSetup setup = [] {
         CameraSetup half = room.setup();
-        half.camera = half.camera.shrunk(2);
+        half.camera = CameraModel(half.camera).shrunk(2).intrinsics();
         return half;
     }();
     const RgbdImage image = toRgbdImage(room.film(T_world_base, stamp_s));

@@ -19,7 +19,7 @@ std::vector<int> blocksOfPixels(const PixelBlocks& blocks, const Camera& camera)
                                               ? pinhole.project(camera.unproject(u, v, 1))
                                               : Eigen::Vector2d(u, v);
             // The border of a fisheye's image lies far outside of, or behind, its pinhole's.
-            const bool is_near = pixel.cwiseAbs().maxCoeff() < 1e6;
+            const bool is_near = pixel.allFinite() && pixel.cwiseAbs().maxCoeff() < 1e6;
             result.push_back(is_near ? blocks.blockAt(pixel.x(), pixel.y()) : -1);
         }
     }

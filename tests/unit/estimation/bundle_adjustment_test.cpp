@@ -14,7 +14,7 @@ namespace {
 
 /** Two cameras that look the same way and another way. */
 std::vector<MountedCamera> rig() {
-    Camera wide;
+    Intrinsics wide;
     wide.fx = wide.fy = 380;
     return {MountedCamera(), MountedCamera(wide, {rotationExp({0, 1.5, 0}), {0.1, 0.02, -0.05}})};
 }

@@ -74,7 +74,7 @@ class MapBuilder : public testing::Test {
 
     static void writeFrame(RawlogWriter& writer, const StampedPose& pose) {
         CameraSetup setup;
-        setup.camera = smallCamera();
+        setup.camera = smallCamera().intrinsics();
         const RgbdImage image =
             render(BoxRoom(), setup.camera, T_world_room.inverse() * pose.T_world_cam);
         const auto frame = makeRgbdObservation(setup, pose.stamp_s);
