@@ -64,7 +64,7 @@ TEST_F(SparseMapFile, comesBack) {
 /** The format is fixed: these bytes are the same on every machine. */
 TEST_F(SparseMapFile, startsAsDocumented) {
     EXPECT_EQ(bytes_.substr(0, 8), "RGBDMAP\n");
-    EXPECT_EQ(bytes_.substr(8, 4), std::string("\2\0\0\0", 4));
+    EXPECT_EQ(bytes_.substr(8, 4), std::string("\3\0\0\0", 4));
     EXPECT_EQ(
         static_cast<unsigned char>(bytes_[12]) + 256u * static_cast<unsigned char>(bytes_[13]),
         bytes_.size() - 24);
@@ -90,7 +90,7 @@ TEST_F(SparseMapFile, everyCutIsNoticed) {
 TEST_F(SparseMapFile, otherVersionsAndOtherFilesAreNamed) {
     std::string other = bytes_;
     other[8] = 1;
-    expectRefused(other, "is of version 1, this program reads version 2");
+    expectRefused(other, "is of version 1, this program reads version 3");
     expectRefused(std::string(1000, 'x'), "is no map of rgbd-slam");
     EXPECT_THROW(readSparseMap(folder_ / "nothing"), Error);
     EXPECT_THROW(readSparseMap(folder_ / ""), Error);
