@@ -11,6 +11,7 @@ namespace rgbd_graphslam {
 /** Sensor label of the pairs that are written. */
 inline constexpr const char* stereo_label = "STEREO";
 
+/** What an import of stereo pairs found and wrote. */
 struct StereoReport {
     ImageTally left, right;
     /** Pairs written, and left out because an image of theirs is damaged. */

@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 
+/** Both cameras of a stereo head, and where they and the IMU are on the robot. */
 struct StereoCalibration {
     /** The file it came from. */
     std::string name;

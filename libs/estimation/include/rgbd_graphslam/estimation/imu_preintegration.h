@@ -16,6 +16,7 @@ struct ImuSample {
     Eigen::Vector3d accelerometer = Eigen::Vector3d::Zero();  // m/s^2, gravity included
 };
 
+/** Constant errors of both sensors. */
 struct ImuBias {
     Eigen::Vector3d gyro = Eigen::Vector3d::Zero();           // rad/s
     Eigen::Vector3d accelerometer = Eigen::Vector3d::Zero();  // m/s^2

@@ -5,6 +5,7 @@
 
 namespace rgbd_graphslam {
 
+/** A camera with its place on the body; most often the camera is the body. */
 class MountedCamera {
   public:
     explicit MountedCamera(const Camera& camera = {}, const SE3& T_cam_body = {})

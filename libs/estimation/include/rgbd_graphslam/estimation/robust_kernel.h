@@ -36,6 +36,7 @@ inline RobustCost gemanMcClure(double chi2, double limit) {
  *  of the measurements agree on another. */
 enum class KernelShape { None, Huber, Cauchy, GemanMcClure };
 
+/** A kernel and where it begins to doubt. */
 struct RobustKernel {
     KernelShape shape = KernelShape::None;
     /** Of chi2; unused by None. */

@@ -41,6 +41,7 @@ struct KeyframeState {
     Vector15d minus(const KeyframeState& other) const;
 };
 
+/** All unknowns of a problem. */
 struct States {
     std::vector<KeyframeState> keyframes;
     std::vector<Eigen::Vector3d> points;  // world, m

@@ -13,6 +13,7 @@
 
 namespace rgbd_graphslam {
 
+/** How an occupancy grid is compared with a true surface. */
 struct GridAccuracyOptions {
     /** Maps the map's coordinates to the surface's. */
     Similarity alignment;
@@ -24,6 +25,7 @@ struct GridAccuracyOptions {
     const MoverWays* movers = nullptr;
 };
 
+/** Occupied cells of a grid, and those without an obstacle. */
 struct GridAccuracy {
     std::size_t occupied = 0;  // cells
     std::size_t wrong = 0;     // of them, without an obstacle near

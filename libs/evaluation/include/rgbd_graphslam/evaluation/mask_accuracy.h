@@ -10,6 +10,7 @@
 
 namespace rgbd_graphslam {
 
+/** Which pictures are scored, and what counts as good. */
 struct MaskAccuracyOptions {
     /** Only pictures are scored of which movers take up this share at least ... */
     double min_share = 0.02;
@@ -20,6 +21,7 @@ struct MaskAccuracyOptions {
     double max_difference_s = 0.005;
 };
 
+/** How well estimated masks agree with the true ones. */
 struct MaskAccuracy {
     std::size_t pictures = 0;  // with an estimate and a truth
     std::size_t missing = 0;   // true masks without an estimate

@@ -1,3 +1,4 @@
+/** The usual name of the camera model. */
 #pragma once
 #include "rgbd_graphslam/geometry/camera_model.h"
 

@@ -9,6 +9,7 @@
 
 namespace rgbd_graphslam {
 
+/** One camera of a rig. */
 struct RigCamera {
     std::string label;  // of the sensor, as observations have it
     CameraModel model;

@@ -5,6 +5,7 @@
 
 namespace rgbd_graphslam {
 
+/** Observations of a rawlog in the order of the file. */
 class RawlogSource final : public ObservationSource {
   public:
     /** \throws Error when the file is missing, empty or does not start like a rawlog */

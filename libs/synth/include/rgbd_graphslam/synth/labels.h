@@ -37,6 +37,7 @@ enum class Label : std::uint8_t {
     Outside,
 };
 
+/** A label with its name and color in pictures. */
 struct LabelClass {
     Label label;
     std::string name;
