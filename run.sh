@@ -111,7 +111,7 @@ run_demo() {
   $out/view.png         picture of the map
   $out/map.png          the map from above; map3d.jpg: in perspective
   $out/ate.png          trajectory and truth; ate.txt has the figures
-  $out/points.ply       coloured points (MeshLab, CloudCompare)
+  $out/points.ply       colored points (MeshLab, CloudCompare)
   $out/octree.bt        octree with free space (octovis)
   $out/grid.png, .yaml  floor plan for navigation (ROS)
   $out/scene.3Dscene    all in one: SceneViewer3D $out/scene.3Dscene

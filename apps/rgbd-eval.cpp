@@ -125,7 +125,7 @@ void addPointCloud(CLI::App& app, PointCloudRequest& request, std::vector<std::s
         ->capture_default_str();
     command
         .add_option("--depth-units", request.depth_units,
-                    "Depth units a meter; default: the camera's")
+                    "Depth units per meter; default: the camera's")
         ->check(positive());
     declareNumber(command, "--max-difference", request.max_difference_s,
                   "Stamps further apart are no pair, s", positive());
@@ -136,7 +136,7 @@ void addPointCloud(CLI::App& app, PointCloudRequest& request, std::vector<std::s
     declareNumber(command, "--max-depth", options.max_depth_m,
                   "Leave out what is farther, m; 0: nothing", notNegative());
     declareNumber(command, "--voxel", options.voxel_m,
-                  "Keep one point a cube of this side, m; 0: all", notNegative());
+                  "Keep one point per cube of this side, m; 0: all", notNegative());
     command.final_callback([&] {
         takeFiles(files, request);
         print(runPointCloud(request));

@@ -34,9 +34,10 @@ class LoopInjector {
         const TrackedFrame tracked = slam_.track(slam_.prepare(image));
         if (!tracked.keyframe) return;
         const int keyframe = *tracked.keyframe;
-        const bool lie = lies_ && keyframe > least_gap && keyframe % keyframes_between == 0;
-        if (lie) false_.push_back(falseLoop(slam_, keyframe));
-        if (slam_.findLoops(keyframe).empty() && !lie) return;
+        const bool due = keyframe > least_gap && keyframe % keyframes_between == 0;
+        if (due && lies_) false_.push_back(falseLoop(slam_, keyframe));
+        // Without lies the graph is optimized as often: correcting the map changes what follows.
+        if (slam_.findLoops(keyframe).empty() && !due) return;
         PoseGraph graph = slam_.poseGraph();
         graph.edges.insert(graph.edges.end(), false_.begin(), false_.end());
         optimizePoseGraph(graph, PoseGraphOptions());
@@ -95,8 +96,7 @@ TEST_F(FalseLoops, oneInTenKeyframesDoNotBendTheMap) {
     EXPECT_LT(honest_m, 0.1);  // a quarter of the pixels, a third of the frames
     const double deceived_m = run(true);
     EXPECT_GT(false_loops_, 15u);
-    // 1.13: what lets true loops bend the chain lets false ones, too (doc/lab/graph-edges.md).
-    EXPECT_LE(deceived_m, 1.15 * honest_m);
+    EXPECT_LE(deceived_m, 1.1 * honest_m);
     RecordProperty("honest_m", std::to_string(honest_m));
     RecordProperty("deceived_m", std::to_string(deceived_m));
     RecordProperty("false_loops", std::to_string(false_loops_));

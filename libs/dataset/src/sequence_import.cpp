@@ -102,16 +102,16 @@ class Import {
         writeComment(writer);
         Progress progress("importing", pairs_.size());
         OrderedJobs<LoadedFrame> loading;
-        std::size_t next_load = 0, next_sensor = 0;
+        std::size_t next_load = 0;
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
             for (; next_load < pairs_.size() && loading.size() < ahead(); ++next_load) {
                 loading.push([this, &pair = pairs_[next_load]] { return source_.load(pair); });
             }
-            writeSensorsUntil(toMrptTime(pairs_[i].color.stamp_s), next_sensor, writer);
+            sensors_.writeUntil(toMrptTime(pairs_[i].color.stamp_s), writer);
             writeFrame(pairs_[i], loading.pop(), writer);
             progress.update(i + 1);
         }
-        writeSensorsUntil(mrpt::Clock::time_point::max(), next_sensor, writer);
+        sensors_.writeRest(writer);
         report_.notes = sequence_.notes;
         if (converted_ > 0) {
             report_.notes.push_back(
@@ -135,23 +135,12 @@ class Import {
 
     void writeComment(RawlogWriter& writer) const {
         mrpt::obs::CObservationComment comment;
-        comment.timestamp = firstTime();
+        comment.timestamp = sensors_.firstTime(toMrptTime(pairs_.front().color.stamp_s));
         comment.text =
             "[source]\nsequence = " + fs::weakly_canonical(sequence_.folder).filename().string() +
             "\ncamera = " + fs::path(setup_.name).filename().string() + "\n" +
             toIniText(depthStampsOf(pairs_));
         writer.write(comment);
-    }
-
-    mrpt::Clock::time_point firstTime() const {
-        const auto first_frame = toMrptTime(pairs_.front().color.stamp_s);
-        return sensors_.empty() ? first_frame : std::min(first_frame, sensors_.front()->timestamp);
-    }
-
-    void writeSensorsUntil(mrpt::Clock::time_point time, std::size_t& next, RawlogWriter& writer) {
-        for (; next < sensors_.size() && sensors_[next]->timestamp <= time; ++next) {
-            writer.write(*sensors_[next]);
-        }
     }
 
     void writeFrame(const FramePair& pair, const LoadedFrame& loaded, RawlogWriter& writer) {
@@ -247,7 +236,7 @@ class Import {
     RegistrationCheck registration_;
     LagCheck lag_;
     DepthHistogram depth_histogram_;
-    SensorEntries sensors_;
+    SensorFeed sensors_;
 };
 
 }  // namespace

@@ -96,7 +96,7 @@ class StereoImport {
                         {"right", sequence.right, report_.right}, options)) {
         completeSizes();
         ImportReport counts;
-        sensors_ = sensorEntries(sequence.motion, setupOf(calibration_), counts);
+        sensors_ = SensorFeed(sensorEntries(sequence.motion, setupOf(calibration_), counts));
         report_.imu = counts.imu;
         report_.odometry = counts.odometry;
         report_.truth = counts.truth;
@@ -108,17 +108,17 @@ class StereoImport {
         writeComment(writer);
         Progress progress("importing", pairs_.size());
         OrderedJobs<LoadedPair> loading;
-        std::size_t next_load = 0, next_sensor = 0;
+        std::size_t next_load = 0;
         const auto ahead = static_cast<std::size_t>(std::max(1, options_.threads));
         for (std::size_t i = 0; i < pairs_.size(); ++i) {
             for (; next_load < pairs_.size() && loading.size() < ahead; ++next_load) {
                 loading.push([this, &pair = pairs_[next_load]] { return load(pair); });
             }
-            writeSensorsUntil(toMrptTime(pairs_[i].first.stamp_s), next_sensor, writer);
+            sensors_.writeUntil(toMrptTime(pairs_[i].first.stamp_s), writer);
             writePair(pairs_[i].first.stamp_s, loading.pop(), writer);
             progress.update(i + 1);
         }
-        writeSensorsUntil(mrpt::Clock::time_point::max(), next_sensor, writer);
+        sensors_.writeRest(writer);
     }
 
     const StereoReport& report() const { return report_; }
@@ -177,18 +177,11 @@ class StereoImport {
 
     void writeComment(RawlogWriter& writer) const {
         mrpt::obs::CObservationComment comment;
-        const auto first = toMrptTime(pairs_.front().first.stamp_s);
-        comment.timestamp = sensors_.empty() ? first : std::min(first, sensors_.front()->timestamp);
+        comment.timestamp = sensors_.firstTime(toMrptTime(pairs_.front().first.stamp_s));
         comment.text =
             "[source]\nsequence = " + fs::weakly_canonical(sequence_.folder).filename().string() +
             "\ncamera = " + fs::path(calibration_.name).filename().string() + "\n";
         writer.write(comment);
-    }
-
-    void writeSensorsUntil(mrpt::Clock::time_point time, std::size_t& next, RawlogWriter& writer) {
-        for (; next < sensors_.size() && sensors_[next]->timestamp <= time; ++next) {
-            writer.write(*sensors_[next]);
-        }
     }
 
     void writePair(double stamp_s, const LoadedPair& loaded, RawlogWriter& writer) {
@@ -229,7 +222,7 @@ class StereoImport {
     StereoReport report_;
     StereoCalibration calibration_;
     std::vector<ImagePair> pairs_;
-    SensorEntries sensors_;
+    SensorFeed sensors_{{}};
 };
 
 }  // namespace

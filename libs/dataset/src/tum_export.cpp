@@ -31,7 +31,7 @@ namespace fs = std::filesystem;
 using namespace mrpt::obs;
 namespace {
 
-/** The fewest digits of units a meter that give the same float back as meters a unit. */
+/** The fewest digits of units per meter that give the same float back as meters per unit. */
 double unitsAMetre(float metres_a_unit) {
     const double exact = 1 / static_cast<double>(metres_a_unit);
     for (double grain = 1; grain > 1e-9; grain /= 10) {

@@ -92,8 +92,8 @@ std::vector<PoseEdge> KeyframeEdges::covisibility(const PoseEdge& odometry) cons
 }
 
 /** All edges from earlier keyframes that one keyframe has. They share its measurements, and those
- * of its neighbors share most landmarks: m edges a keyframe, over 1 to m keyframes each, would make
- * the chain m^2/3 times as stiff as one independent measurement per m keyframes, which is what
+ * of its neighbors share most landmarks: m edges per keyframe, over 1 to m keyframes each, would
+ * make the chain m^2/3 times as stiff as one independent measurement per m keyframes, which is what
  * there is. */
 std::vector<PoseEdge> KeyframeEdges::edgesTo(int keyframe) const {
     std::vector<PoseEdge> edges{odometry(keyframe)};

@@ -17,6 +17,14 @@ Exposure drifting(double t) {
     return exposure;
 }
 
+Exposure dim(double t, double brightness) {
+    Exposure exposure = drifting(t);
+    exposure.brightness *= brightness;
+    exposure.gain = 3;
+    exposure.shutter_s = 0.02;
+    return exposure;
+}
+
 Motion strollAround(const Vector3d& center, double radius_x, double radius_y, double seconds,
                     double ahead_rad, std::uint64_t seed) {
     const int count = 12;

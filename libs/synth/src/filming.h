@@ -6,6 +6,8 @@ namespace rgbd_graphslam::synth {
 
 /** A camera's automatic exposure hunts slowly by some per cent. */
 Exposure drifting(double t);
+/** The same in little light: noisy and blurred by a long exposure. */
+Exposure dim(double t, double brightness);
 
 /** Eye and gaze on ellipses about a point, the gaze ahead of the eye; one round. */
 Motion strollAround(const Eigen::Vector3d& center, double radius_x, double radius_y, double seconds,

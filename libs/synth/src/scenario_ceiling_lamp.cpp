@@ -31,13 +31,7 @@ World build(int, std::uint64_t seed) {
     };
     world.lens =
         std::make_shared<LensFlare>(std::vector<Vector3d>{{4.6, 2.6, 2.65}, {1.8, 2.6, 2.65}});
-    world.exposure = [](double t) {
-        Exposure exposure = drifting(t);
-        exposure.brightness *= 0.35;
-        exposure.gain = 3;
-        exposure.shutter_s = 0.02;
-        return exposure;
-    };
+    world.exposure = [](double t) { return dim(t, 0.35); };
     world.motion = lookUp(seed);
     return world;
 }

@@ -96,13 +96,7 @@ World build(int, std::uint64_t seed) {
     const auto still = [](double) { return SE3(); };
     world.movers = {{"", still, std::nullopt, false, Mover::SeenBy::Color},
                     {"", still, SE3(), false, Mover::SeenBy::Depth}};
-    world.exposure = [](double t) {
-        Exposure exposure = drifting(t);
-        exposure.brightness *= 1.1;
-        exposure.gain = 3;
-        exposure.shutter_s = 0.02;
-        return exposure;
-    };
+    world.exposure = [](double t) { return dim(t, 1.1); };
     world.motion = crawl(seed);
     return world;
 }
