@@ -53,16 +53,16 @@ void readWholeRawlog(const std::string& path) {
     }
 }
 
-std::string sparseMapFile(const std::string& payload) {
+}  // namespace
+
+std::string sparseMapFile(std::uint32_t version, const std::string& payload) {
     ByteWriter header;
-    header.put<std::uint32_t>(1);
+    header.put(version);
     header.put(static_cast<std::uint64_t>(payload.size()));
     header.put(static_cast<std::uint32_t>(
         crc32_z(0, reinterpret_cast<const Bytef*>(payload.data()), payload.size())));
     return "RGBDMAP\n" + header.bytes() + payload;
 }
-
-}  // namespace
 
 void fuzzTumList(const std::string& bytes) {
     fileOf("sequence/depth.txt", bytes);
@@ -103,7 +103,9 @@ void fuzzRawlog(const std::string& bytes) {
 }
 
 void fuzzSparseMap(const std::string& bytes) {
-    mayRefuse([&] { readSparseMap(fileOf("map.sparse", sparseMapFile(bytes))); });
+    for (auto version = oldest_sparse_map_version; version <= sparse_map_version; ++version) {
+        mayRefuse([&] { readSparseMap(fileOf("map.sparse", sparseMapFile(version, bytes))); });
+    }
 }
 
 void fuzzBinaryOcTree(const std::string& bytes) {

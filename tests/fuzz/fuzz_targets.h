@@ -30,6 +30,8 @@ void fuzzTrajectory(const std::string& bytes);
 void fuzzFramesCsv(const std::string& bytes);
 /** Every observation, and the images of those that are RGB-D. */
 void fuzzRawlog(const std::string& bytes);
+/** A map.sparse of that version. */
+std::string sparseMapFile(std::uint32_t version, const std::string& payload);
 /** The bytes are a map.sparse behind its check sum, which would keep all others out. */
 void fuzzSparseMap(const std::string& bytes);
 /** The bytes are the state in a checkpoint; a run that takes it up goes on to its end. */

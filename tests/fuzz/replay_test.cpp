@@ -10,6 +10,7 @@
 #include "../../libs/job/src/checkpoint.h"
 #include "../support/tum_folder.h"
 #include "fuzz_targets.h"
+#include "rgbd_graphslam/job/sparse_map_file.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -93,6 +94,20 @@ TEST(CheckpointFormat, stateOfThisFormatIsReadAndWrittenTheSame) {
     ASSERT_FALSE(state.empty()) << "see tests/fuzz/README.md for how to make " << file;
     EXPECT_TRUE(goneOnAndSaved(state) == state)
         << "the layout of checkpoints has changed: raise Checkpoint::format";
+}
+
+/** Maps that people have made stay readable. */
+TEST(SparseMapFormat, everyVersionKeptIsRead) {
+    const TestFolder folder;
+    for (auto version = oldest_sparse_map_version; version <= sparse_map_version; ++version) {
+        const std::string kept = "sparse_map/version-" + std::to_string(version);
+        const fs::path corpus = fs::path(RGBD_SOURCE_DIR) / "tests/fuzz/corpus";
+        folder.write("map.sparse", sparseMapFile(version, readText((corpus / kept).string())));
+        const SparseMap map = readSparseMap(folder / "map.sparse");
+        EXPECT_FALSE(map.snapshot.keyframes.empty()) << kept;
+        EXPECT_FALSE(map.snapshot.landmarks.empty()) << kept;
+        EXPECT_FALSE(map.sessions.empty()) << kept;
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Corpora, FuzzReplay, testing::ValuesIn(fuzzTargets()),

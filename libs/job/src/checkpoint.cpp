@@ -95,7 +95,7 @@ std::string checkpointPath(const std::string& out_folder) {
 
 Checkpoint readCheckpoint(const std::string& out_folder) {
     const std::string path = checkpointPath(out_folder);
-    const std::string payload = readSealed(path, checkpoint_file);
+    const std::string payload = readSealed(path, checkpoint_file).bytes;
     try {
         ByteReader in(payload);
         Checkpoint checkpoint = decoded(in, path);

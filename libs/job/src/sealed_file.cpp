@@ -26,13 +26,18 @@ std::string readBytes(const std::string& path, const FileKind& kind) {
     return bytes;
 }
 
-/** \return where the payload begins */
-std::size_t checkHeader(std::string_view bytes, const FileKind& kind, const std::string& path) {
+std::string readableVersions(const FileKind& kind) {
+    const std::string newest = std::to_string(kind.version);
+    if (kind.oldest_readable == kind.version) return "version " + newest;
+    return "versions " + std::to_string(kind.oldest_readable) + " to " + newest;
+}
+
+SealedPayload open(std::string_view bytes, const FileKind& kind, const std::string& path) {
     ByteReader header(bytes.substr(kind.magic.size()));
     const auto version = header.get<std::uint32_t>();
-    if (version != kind.version) {
+    if (version < kind.oldest_readable || version > kind.version) {
         throw Error(named(kind, path) + " is of version " + std::to_string(version) +
-                        ", this program reads version " + std::to_string(kind.version),
+                        ", this program reads " + readableVersions(kind),
                     "make it again with this program");
     }
     const auto size = header.get<std::uint64_t>();
@@ -41,10 +46,9 @@ std::size_t checkHeader(std::string_view bytes, const FileKind& kind, const std:
         throw DamagedBytes("it has " + std::to_string(header.left()) + " of " +
                            std::to_string(size) + " bytes");
     }
-    if (checksumOf(bytes.substr(bytes.size() - size)) != checksum) {
-        throw DamagedBytes("its check sum is wrong");
-    }
-    return bytes.size() - size;
+    const std::string_view payload = bytes.substr(bytes.size() - size);
+    if (checksumOf(payload) != checksum) throw DamagedBytes("its check sum is wrong");
+    return {std::string(payload), version};
 }
 
 }  // namespace
@@ -67,13 +71,13 @@ void writeSealed(const std::string& path, const FileKind& kind, const std::strin
     });
 }
 
-std::string readSealed(const std::string& path, const FileKind& kind) {
-    std::string bytes = readBytes(path, kind);
+SealedPayload readSealed(const std::string& path, const FileKind& kind) {
+    const std::string bytes = readBytes(path, kind);
     if (bytes.compare(0, kind.magic.size(), kind.magic) != 0) {
         throw Error("'" + path + "' is no " + kind.noun + " of rgbd-slam", kind.if_other);
     }
     try {
-        return bytes.substr(checkHeader(bytes, kind, path));
+        return open(bytes, kind, path);
     } catch (const DamagedBytes& e) {
         throw damaged(path, kind, e);
     }

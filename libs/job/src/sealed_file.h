@@ -16,15 +16,21 @@ struct FileKind {
     std::string noun;
     /** Remedies where there is no such file, where a file is another, and where it is damaged. */
     std::string if_missing, if_other, if_damaged;
+    std::uint32_t oldest_readable = version;
+};
+
+struct SealedPayload {
+    std::string bytes;
+    std::uint32_t version;
 };
 
 /** Atomically. \throws Error when the file cannot be written */
 void writeSealed(const std::string& path, const FileKind& kind, const std::string& payload);
 
-/** \return the payload
+/** \return the payload, of any version that can be read
  *  \throws Error in one line naming the file when it is missing, of another kind or version, cut
  *          off or damaged */
-std::string readSealed(const std::string& path, const FileKind& kind);
+SealedPayload readSealed(const std::string& path, const FileKind& kind);
 
 /** What is said of a file whose payload makes no sense. */
 Error damaged(const std::string& path, const FileKind& kind, const DamagedBytes& reason);

@@ -4,16 +4,18 @@
 
 #include "rgbd_graphslam/slam/map_encoding.h"
 #include "sealed_file.h"
+#include "sparse_map_upgrade.h"
 
 namespace rgbd_graphslam {
 namespace {
 
 const FileKind map_file{"RGBDMAP\n",
-                        3,
+                        sparse_map_version,
                         "map",
                         "give the output folder of a run of rgbd-slam",
                         "give a map.sparse",
-                        "copy it again or make it again"};
+                        "copy it again or make it again",
+                        oldest_sparse_map_version};
 
 /** No path holds it: what follows is the camera's label, where there is one. */
 constexpr char behind_path = '\0';
@@ -72,9 +74,10 @@ void writeSparseMap(const std::string& path, const SparseMap& map) {
 }
 
 SparseMap readSparseMap(const std::string& path) {
-    const std::string payload = readSealed(path, map_file);
+    SealedPayload payload = readSealed(path, map_file);
     try {
-        ByteReader in(payload);
+        if (payload.version == oldest_sparse_map_version) payload.bytes = upgradeFromVersion2(payload.bytes);
+        ByteReader in(payload.bytes);
         return decode(in);
     } catch (const DamagedBytes& e) {
         throw damaged(path, map_file, e);

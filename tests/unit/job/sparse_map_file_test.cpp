@@ -90,7 +90,7 @@ TEST_F(SparseMapFile, everyCutIsNoticed) {
 TEST_F(SparseMapFile, otherVersionsAndOtherFilesAreNamed) {
     std::string other = bytes_;
     other[8] = 1;
-    expectRefused(other, "is of version 1, this program reads version 3");
+    expectRefused(other, "is of version 1, this program reads versions 2 to 3");
     expectRefused(std::string(1000, 'x'), "is no map of rgbd-slam");
     EXPECT_THROW(readSparseMap(folder_ / "nothing"), Error);
     EXPECT_THROW(readSparseMap(folder_ / ""), Error);

@@ -1,11 +1,15 @@
 /** map.sparse: what a later run localizes in or goes on with. */
 #pragma once
+#include <cstdint>
 #include <string>
 #include <vector>
 
 #include "rgbd_graphslam/slam/map_snapshot.h"
 
 namespace rgbd_graphslam {
+
+/** Of a map.sparse as it is written, and the oldest that is still read. */
+constexpr std::uint32_t sparse_map_version = 3, oldest_sparse_map_version = 2;
 
 /** Of the file in a run's output folder. */
 inline constexpr const char* sparse_map_name = "map.sparse";
