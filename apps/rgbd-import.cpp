@@ -115,6 +115,12 @@ void declareFrames(CLI::App& app, Arguments& args) {
     app.add_option("--depth-offset", args.import.depth_offset_s,
                    "Added to the depth images' stamps, s; for depth that comes early or late")
         ->type_name("S");
+    app.add_option(
+           "--mask", args.import.mask_file,
+           "Image that is black where every frame is to be ignored, such as the robot's own "
+           "arm; default: DIR/mask.png if present. DIR/mask/ may hold one PNG per frame, "
+           "named like its color image")
+        ->type_name("FILE");
     app.add_flag("--strict", args.import.strict,
                  "Refuse a recording with missing files, or with depth that seems wrong: its unit, "
                  "its place in the color image or its time");

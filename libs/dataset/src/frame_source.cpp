@@ -55,7 +55,10 @@ Intrinsics fitted(const Intrinsics& camera, const std::string& name, const std::
 
 FrameSource::FrameSource(const RgbdSequence& sequence, const CameraSetup& setup,
                          const ImportOptions& options, const std::vector<FramePair>& pairs)
-    : sequence_(sequence), setup_(setup), depth_setup_(options.depth_camera) {
+    : sequence_(sequence),
+      masks_(sequence.folder, options.mask_file),
+      setup_(setup),
+      depth_setup_(options.depth_camera) {
     fitSizes(pairs);
     if (sequence.no_reading != 0) no_reading_.push_back(sequence.no_reading);
     if (!options.no_reading) {
@@ -138,7 +141,7 @@ LoadedFrame FrameSource::load(const FramePair& pair) const {
                  depth = readDepthImage(depth_file, depthUnits());
     std::string damage = color.damage.empty() ? depth.damage : color.damage;
     if (damage.empty()) damage = dropUnconfident(sequence_, pair.depth.file, depth.pixels);
-    if (!damage.empty()) return {color_file, {}, {}, damage};
+    if (!damage.empty()) return {color_file, {}, {}, damage, false, {}};
     const cv::Size color_size = sizeOf(setup_.camera);
     if (color.pixels.size() != color_size) refuseSize(color_file, color.pixels.size(), color_size);
     if (depth.pixels.size() != depth_size_)
@@ -149,7 +152,8 @@ LoadedFrame FrameSource::load(const FramePair& pair) const {
     } else if (depth_size_ != color_size) {
         cv::resize(depth.pixels, depth.pixels, color_size, 0, 0, cv::INTER_NEAREST_EXACT);
     }
-    return {color_file, color.pixels, depth.pixels, {}, depth.converted};
+    return {color_file, color.pixels,    depth.pixels,
+            {},         depth.converted, masks_.of(pair.color.file, color_size)};
 }
 
 }  // namespace rgbd_graphslam

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "frame_pairs.h"
+#include "image_masks.h"
 #include "rgbd_graphslam/dataset/depth_registration.h"
 #include "rgbd_graphslam/dataset/sequence_import.h"
 
@@ -18,6 +19,8 @@ struct LoadedFrame {
     std::string damage;
     /** Depth came in meters. */
     bool converted = false;
+    /** See ImageMasks. */
+    cv::Mat mask;
 };
 
 class FrameSource {
@@ -47,6 +50,7 @@ class FrameSource {
     std::string pathOf(const ListedImage& image) const;
 
     const RgbdSequence& sequence_;
+    ImageMasks masks_;
     CameraSetup setup_;
     std::optional<CameraSetup> depth_setup_;
     std::optional<DepthRegistration> registration_;

@@ -35,8 +35,8 @@ bool isFlag(const bool& flag) {
 }
 
 void checkContents(const CObservation3DRangeScan& observation) {
-    if (!isFlag(observation.hasIntensityImage) || !isFlag(observation.hasRangeImage) ||
-        !isFlag(observation.range_is_depth)) {
+    if (!isFlag(observation.hasIntensityImage) || !isFlag(observation.hasConfidenceImage) ||
+        !isFlag(observation.hasRangeImage) || !isFlag(observation.range_is_depth)) {
         refuse(observation, "damaged: a flag is neither yes nor no");
     }
     if (!observation.hasIntensityImage) refuse(observation, "no color image");
@@ -65,6 +65,7 @@ void loadExternals(const CObservation3DRangeScan& observation) {
     try {
         observation.load();
         observation.intensityImage.forceLoad();
+        if (observation.hasConfidenceImage) observation.confidenceImage.forceLoad();
     } catch (const std::exception&) {
         const auto& image = observation.intensityImage;
         refuse(observation, "an image stored outside the rawlog cannot be read" +
@@ -201,6 +202,16 @@ cv::Mat registeredDepth(const CObservation3DRangeScan& observation, const cv::Ma
     return (*registrationBy(std::move(cameras)))(depth);
 }
 
+/** Pixels without confidence are left out. An image of another size is of a depth camera of its
+ *  own, and speaks of that. */
+cv::Mat maskOf(const CObservation3DRangeScan& observation, cv::Size size) {
+    if (!observation.hasConfidenceImage) return {};
+    const cv::Mat confidence =
+        observation.confidenceImage.asCvMat<cv::Mat>(mrpt::img::SHALLOW_COPY);
+    if (confidence.size() != size || confidence.type() != CV_8UC1) return {};
+    return confidence;
+}
+
 }  // namespace
 
 RgbdImage colorAndDepth(const CObservation3DRangeScan::Ptr& observation) {
@@ -219,12 +230,18 @@ RgbdImage colorAndDepth(const CObservation3DRangeScan::Ptr& observation) {
         refuse(*observation, "color and depth differ in size");
     }
     (pixels.channels() == 1 ? image.gray : image.color) = pixels;
+    image.mask = maskOf(*observation, pixels.size());
     return image;
 }
 
 RgbdImage toRgbdImage(const CObservation3DRangeScan::Ptr& observation) {
     RgbdImage image = colorAndDepth(observation);
     if (image.gray.empty()) cv::cvtColor(image.color, image.gray, cv::COLOR_BGR2GRAY);
+    if (!image.mask.empty()) {
+        cv::Mat depth(image.depth.size(), image.depth.type(), cv::Scalar(0));
+        image.depth.copyTo(depth, image.mask);
+        image.depth = depth;
+    }
     return image;
 }
 
@@ -280,6 +297,11 @@ void setDepth(CObservation3DRangeScan& observation, const cv::Mat& depth) {
     observation.hasRangeImage = true;
     observation.rangeImage_setSize(depth.rows, depth.cols);
     depth.copyTo(sharedDepth(observation));
+}
+
+void setMask(CObservation3DRangeScan& observation, const cv::Mat& mask) {
+    observation.hasConfidenceImage = true;
+    observation.confidenceImage = mrpt::img::CImage(mask, mrpt::img::DEEP_COPY);
 }
 
 void setColor(CObservation3DRangeScan& observation, const cv::Mat& color) {

@@ -118,6 +118,10 @@ class Import {
                 std::to_string(converted_) + " depth images in meters, converted to " +
                 shortest(std::round(source_.depthUnits())) + " units per meter");
         }
+        if (masked_ > 0) {
+            report_.notes.push_back(std::to_string(masked_) + " of " +
+                                    std::to_string(report_.frames) + " frames have a mask");
+        }
         report_.notes.insert(report_.notes.end(), source_.notes().begin(), source_.notes().end());
         judgeRegistration();
         judgeDepthUnit();
@@ -156,6 +160,8 @@ class Import {
         const auto frame = makeRgbdObservation(setup_, pair.color.stamp_s);
         setColor(*frame, loaded.color);
         setDepth(*frame, loaded.depth);
+        if (!loaded.mask.empty()) setMask(*frame, loaded.mask);
+        masked_ += !loaded.mask.empty();
         writer.writeFrame(*frame, loaded.color_file);
         const double stamp_s = pair.color.stamp_s;
         if (report_.frames++ == 0) {
@@ -228,7 +234,7 @@ class Import {
 
     const RgbdSequence& sequence_;
     const ImportOptions& options_;
-    std::size_t converted_ = 0;
+    std::size_t converted_ = 0, masked_ = 0;
     ImportReport report_;
     std::vector<FramePair> pairs_;
     FrameSource source_;

@@ -56,7 +56,7 @@ std::string originalColorFile(const CObservation3DRangeScan& frame) {
 void writeImages(const CObservation3DRangeScan::Ptr& frame, const cv::Size& size,
                  const fs::path& color_path, const fs::path& depth_path) {
     const std::string original = originalColorFile(*frame);
-    const RgbdImage image = toRgbdImage(frame);
+    const RgbdImage image = colorAndDepth(frame);
     if (image.depth.size() != size) {
         throw Error("frame at stamp " + stampText(image.stamp_s) + " has " +
                         std::to_string(image.depth.cols) + "x" + std::to_string(image.depth.rows) +
@@ -70,6 +70,10 @@ void writeImages(const CObservation3DRangeScan::Ptr& frame, const cv::Size& size
         fs::copy_file(original, color_path);
     }
     writePng(depth_path, image.depth);
+    if (image.mask.empty()) return;
+    const fs::path mask_folder = color_path.parent_path().parent_path() / "mask";
+    fs::create_directories(mask_folder);
+    writePng(mask_folder / color_path.filename().replace_extension(".png"), image.mask);
 }
 
 /** What one camera of a rawlog is exported with. */

@@ -25,6 +25,36 @@ void checkImage(const cv::Mat& image, int type, const char* what, const Camera& 
                 "import the sequence again with the right camera");
 }
 
+/** Whether a corner's surroundings, which its place and descriptor depend on, touch what is left
+ *  out. */
+bool isLeftOut(const cv::Mat& mask, const Corner& corner, double scale_factor) {
+    constexpr double reach_px = 4;
+    const double reach = reach_px * std::pow(scale_factor, corner.octave);
+    for (const double du : {-reach, 0., reach}) {
+        for (const double dv : {-reach, 0., reach}) {
+            const int u =
+                std::clamp(static_cast<int>(std::lround(corner.u + du)), 0, mask.cols - 1);
+            const int v =
+                std::clamp(static_cast<int>(std::lround(corner.v + dv)), 0, mask.rows - 1);
+            if (mask.at<std::uint8_t>(v, u) == 0) return true;
+        }
+    }
+    return false;
+}
+
+/** Without the corners that the mask leaves out. */
+OrbFeatures inMask(OrbFeatures features, const cv::Mat& mask, double scale_factor) {
+    if (mask.empty()) return features;
+    OrbFeatures rest;
+    for (std::size_t i = 0; i < features.corners.size(); ++i) {
+        if (isLeftOut(mask, features.corners[i], scale_factor)) continue;
+        rest.corners.push_back(features.corners[i]);
+        rest.descriptors.push_back(features.descriptors[i]);
+        rest.patches.push_back(features.patches[i]);
+    }
+    return rest;
+}
+
 }  // namespace
 
 float foregroundDepth(const cv::Mat& depth, double depth_unit_m, float u, float v,
@@ -68,7 +98,9 @@ Frame FrameBuilder::build(const RgbdImage& image) const {
     frame.view = std::async(std::launch::deferred, [dense = dense_, image] {
                      return dense->build(image);
                  }).share();
-    OrbFeatures features = extractor_.extract(image.gray);
+    if (!image.mask.empty()) checkImage(image.mask, CV_8UC1, "mask", camera_, image.stamp_s);
+    OrbFeatures features =
+        inMask(extractor_.extract(image.gray), image.mask, options_.scale_factor);
     frame.descriptors = std::move(features.descriptors);
     frame.patches = std::move(features.patches);
     frame.keypoints.reserve(features.corners.size());

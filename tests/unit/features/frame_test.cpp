@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <opencv2/core.hpp>
+
 #include <cmath>
 #include <random>
 #include <set>
@@ -71,6 +73,30 @@ TEST(FrameBuilder, refusesImagesOfAnotherSizeOrType) {
     EXPECT_THROW(builder.build(image), Error);
     image.depth = cv::Mat::zeros(480, 640, CV_16UC1);
     EXPECT_TRUE(builder.build(image).keypoints.empty());
+}
+
+/** Corners everywhere. */
+RgbdImage noisyImage() {
+    RgbdImage image;
+    image.gray = cv::Mat(480, 640, CV_8UC1);
+    cv::RNG generator(7);
+    generator.fill(image.gray, cv::RNG::UNIFORM, 0, 256);
+    image.depth = cv::Mat(480, 640, CV_16UC1, cv::Scalar(2000));
+    return image;
+}
+
+TEST(FrameBuilder, nothingIsTakenFromWhatTheMaskLeavesOut) {
+    RgbdImage image = noisyImage();
+    image.mask = cv::Mat(480, 640, CV_8UC1, cv::Scalar(255));
+    image.mask.colRange(0, 320) = 0;
+    const FrameBuilder builder({}, Camera{});
+    const Frame frame = builder.build(image);
+    ASSERT_GT(frame.keypoints.size(), 200u);
+    EXPECT_EQ(frame.descriptors.size(), frame.keypoints.size());
+    EXPECT_EQ(frame.patches.size(), frame.keypoints.size());
+    for (const Keypoint& keypoint : frame.keypoints) EXPECT_GE(keypoint.u, 323);
+    image.mask = cv::Mat(48, 64, CV_8UC1, cv::Scalar(255));
+    EXPECT_THROW(builder.build(image), Error);
 }
 
 }  // namespace

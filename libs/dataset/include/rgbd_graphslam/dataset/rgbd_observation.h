@@ -18,13 +18,14 @@ inline constexpr const char* ground_truth_label = "GROUND_TRUTH";
 /** The frame in our terms. Depth that another camera took, by the observation's two calibrations
  * and their relative pose, is registered to color. Other pixels are shared with the observation,
  * which `owner` keeps alive; images stored outside the rawlog are loaded; the gray image is made
- * here. \throws Error naming the stamp when color or depth is absent or unreadable, of different
+ * here; a confidence image of the color image's size is the mask, under which depth is removed.
+ * \throws Error naming the stamp when color or depth is absent or unreadable, of different
  * size without two calibrations that say why, when the two calibrations cannot be right, when
  *          ranges are not depths along the optical axis, or as cameraOf() */
 RgbdImage toRgbdImage(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
 
 /** The same without a gray image that is made: there is one only where the camera is gray, and then
- *  no color image. */
+ *  no color image. Depth under the mask is kept. */
 RgbdImage colorAndDepth(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
 
 /** Calibration of the color camera. One made for images an exact number of times as large or small
@@ -56,5 +57,9 @@ void setDepth(mrpt::obs::CObservation3DRangeScan& observation, const cv::Mat& de
 
 /** Shares a color image (CV_8UC3, BGR) with an observation. */
 void setColor(mrpt::obs::CObservation3DRangeScan& observation, const cv::Mat& color);
+
+/** Stores which pixels are to be ignored, as the observation's confidence image.
+ *  \param mask CV_8UC1 of the images' size, 0 = ignored */
+void setMask(mrpt::obs::CObservation3DRangeScan& observation, const cv::Mat& mask);
 
 }  // namespace rgbd_graphslam

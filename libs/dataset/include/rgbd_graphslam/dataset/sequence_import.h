@@ -36,6 +36,9 @@ struct ImportOptions {
      *  warped then. Its pose and the color camera's on the robot tell how they lie to each other;
      *  its depth unit is that of the images. */
     std::optional<CameraSetup> depth_camera;
+    /** Image that is black where every frame is ignored, such as the robot's own arm; empty: the
+     *  sequence's mask.png, if it has one. */
+    std::string mask_file;
     /** Threads that decode images. */
     int threads = 2;
 };
