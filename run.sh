@@ -128,5 +128,6 @@ case "${1:-}" in
     build) install_all; build_all -DRGBD_BUILD_TESTS=ON ;;
     install) install_all ;;
     install-build) install_packages "${build_packages[@]}" ;;
-    *) usage; [ "${1:-}" = --help ] || exit 2 ;;
+    "" | --help | -h | help) usage ;;
+    *) echo "run.sh: error: unknown command '$1'" >&2; usage >&2; exit 2 ;;
 esac
