@@ -30,7 +30,8 @@ usage: ./run.sh COMMAND
   test     install and build everything, run every test
   bench    install, build, measure (see doc/benchmarks.md)
   build    install and build everything
-  package  install what it needs, make Debian packages in build/package
+  package  install what it needs, make Debian packages in build/package; DEBFULLNAME and DEBEMAIL name
+           their maintainer
   install  install all missing Debian packages
   install-build   install only those that the programs need
 END
@@ -83,7 +84,7 @@ build_demo() {
 
 make_packages() {
     say "Making Debian packages"
-    [ -f build/package/build.ninja ] || cmake --preset package
+    cmake --preset package
     cmake --build build/package
     (cd build/package && rm -f ./*.deb && cpack -G DEB)
 }

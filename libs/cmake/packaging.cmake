@@ -4,7 +4,16 @@
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME rgbd-graphslam)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
-set(CPACK_PACKAGE_CONTACT "The rgbd-graphslam developers <rgbd-graphslam@localhost.localdomain>")
+# As Debian's tools do, name whoever makes the packages.
+set(maintainer "rgbd-graphslam developers")
+set(maintainer_address rgbd-graphslam@localhost.localdomain)
+if(DEFINED ENV{DEBFULLNAME})
+    set(maintainer "$ENV{DEBFULLNAME}")
+endif()
+if(DEFINED ENV{DEBEMAIL})
+    set(maintainer_address "$ENV{DEBEMAIL}")
+endif()
+set(CPACK_PACKAGE_CONTACT "${maintainer} <${maintainer_address}>")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
