@@ -13,12 +13,13 @@ build_packages=(
     libcurl4-openssl-dev libnanoflann-dev gnuplot-nox
     libgl-dev libopengl-dev libegl1 libgl1-mesa-dri
 )
-package_packages=(dpkg-dev file)
+package_packages=(dpkg-dev file pybind11-dev python3-dev python3-numpy)
 test_packages=(
     ccache pkg-config mrpt-apps octomap-tools
     libgtest-dev libgmock-dev libbenchmark-dev python3 parallel doxygen
     python3-rosbag python3-sensor-msgs python3-nav-msgs python3-tf2-msgs zstd lz4 xvfb xauth
     colmap assimp-utils
+    pybind11-dev python3-dev python3-numpy python3-pil
 )
 
 command -v npm >/dev/null || test_packages+=(nodejs npm)

@@ -1,5 +1,6 @@
 # Debian packages, made by `./run.sh package`:
 #   rgbd-graphslam          programs, settings, manual pages, completion, sample, documentation
+#   python3-rgbd-graphslam  Python module, if pybind11 is there
 #   librgbd-graphslam-dev   headers, static libraries, CMake targets, examples
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME rgbd-graphslam)
@@ -18,7 +19,11 @@ set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
     OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
-set(CPACK_COMPONENTS_ALL runtime dev)
+set(components runtime dev)
+if(RGBD_BUILD_PYTHON)
+    list(APPEND components python)
+endif()
+set(CPACK_COMPONENTS_ALL ${components})
 set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
@@ -45,6 +50,13 @@ set(CPACK_COMPONENT_DEV_DESCRIPTION
 "Headers, static libraries and CMake targets to embed RGB-D SLAM in programs:
 find_package(rgbd_graphslam), then link to rgbd_graphslam::graphslam.")
 
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-rgbd-graphslam)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.11), python3 (<< 3.12), python3-numpy")
+set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+"RGB-D SLAM on NumPy images: poses, point clouds and floor plans.")
+
 # What Debian's policy wants of every package: a copyright file and a changelog.
 string(TIMESTAMP date "%a, %d %b %Y 00:00:00 +0000" UTC)
 set(changelog ${PROJECT_BINARY_DIR}/changelog.Debian)
@@ -56,7 +68,7 @@ rgbd-graphslam (@PROJECT_VERSION@-@CPACK_DEBIAN_PACKAGE_RELEASE@) stable; urgenc
  -- @CPACK_PACKAGE_CONTACT@  @date@
 ]] @ONLY)
 execute_process(COMMAND gzip -9nkf ${changelog} COMMAND_ERROR_IS_FATAL ANY)
-foreach(component runtime dev)
+foreach(component ${components})
     string(TOUPPER ${component} COMPONENT)
     set(documents ${CMAKE_INSTALL_DATADIR}/doc/${CPACK_DEBIAN_${COMPONENT}_PACKAGE_NAME})
     install(FILES LICENSE RENAME copyright DESTINATION ${documents} COMPONENT ${component})
