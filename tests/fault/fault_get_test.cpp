@@ -178,7 +178,7 @@ TEST_F(FaultGet, theArchiveIsKeptWhenAskedFor) {
 
 TEST_F(FaultGet, unknownSequencesAndTheList) {
     expectRefused(runProgram("tum-get", "fr9/nothing"), "no sequence 'fr9/nothing'");
-    expectRefused(runProgram("tum-get", ""), "which sequence?");
+    expectRefused(runProgram("tum-get", ""), "missing argument SEQ");
     const auto list = runProgram("tum-get", "--list");
     EXPECT_EQ(list.exit_code, 0);
     EXPECT_THAT(
