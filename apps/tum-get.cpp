@@ -17,9 +17,9 @@ struct Arguments {
 void declare(CLI::App& app, Arguments& args) {
     app.add_option("SEQ", args.sequence, "Sequence, e.g. fr1/desk; see --list");
     app.add_option("DIR", args.folder, "Folder to put it in")->capture_default_str();
-    app.add_flag("--list", args.list, "Print the sequences: duration, length of the path, size");
+    app.add_flag("--list", args.list, "Print the sequences with duration, path length and size");
     app.add_flag("--keep-archive", args.keep_archive, "Keep the .tgz beside the unpacked folder");
-    app.add_option("--table", args.table, "Ini of sequences; default: the shipped one");
+    app.add_option("--table", args.table, "Ini file of the sequences; default: the shipped one");
     declareExamples(app, {"tum-get --list", "tum-get fr1/desk ~/tum"});
     declareCommonOptions(app);
 }
@@ -31,7 +31,7 @@ int run(const Arguments& args) {
         std::fputs(toText(table).c_str(), stdout);
         return 0;
     }
-    if (args.sequence.empty()) throw Error("which sequence?", "see tum-get --list");
+    if (args.sequence.empty()) throw Error("missing argument SEQ", "see tum-get --list");
     const KnownSequence* sequence = findSequence(table, args.sequence);
     if (!sequence) {
         throw Error("there is no sequence '" + args.sequence + "'", "see tum-get --list");
