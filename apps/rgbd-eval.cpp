@@ -81,6 +81,10 @@ void addConsistency(CLI::App& app, ConsistencyRequest& request) {
     command.add_option("RUN", request.run_folder, "Output folder of rgbd-slam")->required();
     command.add_option("TRUTH", request.truth, "True trajectory: TUM text file or .rawlog")
         ->required();
+    declareNumber(command, "--truth-std-m", request.truth_std_m,
+                  "Standard deviation of the ground truth's positions, m", notNegative());
+    declareNumber(command, "--truth-std-deg", request.truth_std_deg,
+                  "Standard deviation of the ground truth's rotations, degrees", notNegative());
     declareFormat(command, request.format);
     command.final_callback([&request] { print(runConsistency(request)); });
 }
@@ -210,7 +214,7 @@ void addMasks(CLI::App& app, MasksRequest& request) {
         ->required();
     command
         .add_option("TRUE_DIR", request.truth,
-                    "True masks, e.g. mask/ of rgbd-synth, with movers.csv beside the folder")
+                    "True masks, e.g. movers/ of rgbd-synth, with movers.csv beside the folder")
         ->required();
     auto& options = request.options;
     declareNumber(command, "--min-share", options.min_share,

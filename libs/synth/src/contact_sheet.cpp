@@ -64,7 +64,7 @@ cv::Mat sequenceRow(const std::string& folder, bool with_mask) {
         thumbs.push_back(thumbnail(cv::imread(colors[(colors.size() - 1) * i / (kColumns - 1)])));
     thumbs.push_back(depthThumbnail(pictures(fs::path(folder) / "depth").back()));
     if (with_mask)
-        thumbs.push_back(thumbnail(cv::imread(pictures(fs::path(folder) / "mask").back())));
+        thumbs.push_back(thumbnail(cv::imread(pictures(fs::path(folder) / "movers").back())));
     cv::Mat row;
     cv::hconcat(thumbs, row);
     addName(folder, row);
@@ -76,7 +76,7 @@ void writeContactSheet(const std::vector<std::string>& folders, const std::strin
     std::vector<cv::Mat> rows;
     rows.reserve(folders.size());
     const bool masks = std::all_of(folders.begin(), folders.end(), [](const std::string& folder) {
-        return fs::is_directory(fs::path(folder) / "mask");
+        return fs::is_directory(fs::path(folder) / "movers");
     });
     for (const std::string& folder : folders) rows.push_back(sequenceRow(folder, masks));
     cv::Mat sheet;

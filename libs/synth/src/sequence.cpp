@@ -161,7 +161,7 @@ class Film {
             std::vector<cv::Mat> channels;
             cv::split(seen, channels);
             writePicture(folder + "/" + pictureName("label", stamp), channels[0]);
-            writePicture(folder + "/" + pictureName("mask", stamp), channels[1]);
+            writePicture(folder + "/" + pictureName("movers", stamp), channels[1]);
         });
     }
 
@@ -257,7 +257,7 @@ FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std
             "it has " + std::to_string(scenario.sessions));
     const int frames = options.frames > 0 ? options.frames : scenario.frames;
     makeEmptyFolder(folder);
-    for (const char* kind : {"rgb", "depth", "label", "mask"})
+    for (const char* kind : {"rgb", "depth", "label", "movers"})
         makeWritableFolder(folder + "/" + kind);
     const World world = worldOf(scenario, options);
     const Scene scene = world.scene();

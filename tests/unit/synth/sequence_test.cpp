@@ -165,10 +165,10 @@ TEST_F(Sequence, MaskIsWhereTheFilmWithoutMoversDiffers) {
     options_.movers = false;
     const std::string without = filmed("crowd", "without");
     EXPECT_EQ(filesBelow(with).at("groundtruth.txt"), filesBelow(without).at("groundtruth.txt"));
-    const cv::Mat mask = firstOf(with, "mask"), label = firstOf(with, "label");
+    const cv::Mat mask = firstOf(with, "movers"), label = firstOf(with, "label");
     ASSERT_EQ(mask.type(), CV_8UC1);
     EXPECT_GT(cv::countNonZero(mask), 0.1 * mask.total());
-    EXPECT_EQ(cv::countNonZero(firstOf(without, "mask")), 0);
+    EXPECT_EQ(cv::countNonZero(firstOf(without, "movers")), 0);
     EXPECT_EQ(cv::countNonZero((label == static_cast<int>(Label::Person)) != (mask == 255)), 0);
     const cv::Mat differs = firstOf(with, "depth") != firstOf(without, "depth");
     EXPECT_EQ(cv::countNonZero(differs & (mask == 0)), 0);
@@ -180,7 +180,7 @@ TEST_F(Sequence, MaskOfALensIsWhereItHidesTheScene) {
     const std::string with = filmed("dirty-lens", "with");
     options_.movers = false;
     const std::string without = filmed("dirty-lens", "without");
-    const cv::Mat mask = firstOf(with, "mask");
+    const cv::Mat mask = firstOf(with, "movers");
     EXPECT_GT(cv::countNonZero(mask), 0.03 * mask.total());
     EXPECT_LT(cv::countNonZero(mask), 0.5 * mask.total());
     cv::Mat difference;
