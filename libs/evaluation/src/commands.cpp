@@ -137,8 +137,9 @@ std::string runRpe(const RpeRequest& request) {
 std::string runConsistency(const ConsistencyRequest& request) {
     const auto claims = readClaimedPoses(request.run_folder);
     const auto truth = readTrajectory(request.truth);
+    const TruthAccuracy accuracy{request.truth_std_m, request.truth_std_deg * M_PI / 180};
     const auto result =
-        naming(request.run_folder, [&] { return evaluateConsistency(claims, truth); });
+        naming(request.run_folder, [&] { return evaluateConsistency(claims, truth, accuracy); });
     return format({reportOf(labelsOf({request.run_folder}).front(), result)}, request.format);
 }
 

@@ -87,7 +87,8 @@ std::optional<ClaimedPose> claimOf(const std::vector<std::string>& cells, std::s
 
 }  // namespace
 
-Consistency evaluateConsistency(const std::vector<ClaimedPose>& poses, const Trajectory& truth) {
+Consistency evaluateConsistency(const std::vector<ClaimedPose>& poses, const Trajectory& truth,
+                                const TruthAccuracy& accuracy) {
     std::vector<Pair> pairs, believed;
     for (const ClaimedPose& claim : poses) {
         const auto T_world_true = truthAt(truth, claim.stamp_s);
@@ -107,7 +108,10 @@ Consistency evaluateConsistency(const std::vector<ClaimedPose>& poses, const Tra
         const SE3 T_cam_true = (alignment * pair.claim->T_world_cam).inverse() * pair.T_world_true;
         Vector6d error;
         error << T_cam_true.t, rotationLog(T_cam_true.R);
-        const Vector6d normalized = error.cwiseQuotient(pair.claim->sigma);
+        Vector6d variance = pair.claim->sigma.cwiseAbs2();
+        variance.head<3>().array() += accuracy.sigma_m * accuracy.sigma_m;
+        variance.tail<3>().array() += accuracy.sigma_rad * accuracy.sigma_rad;
+        const Vector6d normalized = error.cwiseQuotient(variance.cwiseSqrt());
         const double sum = normalized.squaredNorm();
         const double share = 1.0 / static_cast<double>(believed.size());
         result.nees += sum * share;

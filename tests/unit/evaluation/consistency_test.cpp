@@ -97,6 +97,18 @@ TEST(Consistency, readsARunsFolder) {
     EXPECT_EQ(claims[1].sigma[5], 0.6);
 }
 
+/** The truth errs, too: half of the claimed standard deviation is the run's, the rest the truth's.
+ */
+TEST(Consistency, errorsOfTheTruthAreNoErrorsOfTheRun) {
+    const Trajectory truth = circle(2001);
+    const auto claims = claimsOf(truth, 0.5);
+    const double rest = std::sqrt(0.75);
+    const auto without = evaluateConsistency(claims, truth);
+    const auto with = evaluateConsistency(claims, truth, {rest * sigma_m, rest * sigma_rad});
+    EXPECT_NEAR(without.nees, 24, 2);
+    EXPECT_NEAR(with.nees, 6, 0.4);
+}
+
 TEST(Consistency, namesTheLineThatIsDamaged) {
     const TestFolder run;
     run.write("trajectory.txt", "1 0 0 0 0 0 0 1\n");

@@ -43,6 +43,8 @@ std::string runRpe(const RpeRequest& request);
 /** Arguments of `rgbd-eval consistency`. */
 struct ConsistencyRequest {
     std::string run_folder, truth;  // the truth: TUM text file or .rawlog
+    /** Standard deviations of the truth, of each component. */
+    double truth_std_m = 0, truth_std_deg = 0;
     ReportFormat format = ReportFormat::Text;
 };
 std::string runConsistency(const ConsistencyRequest& request);

@@ -34,10 +34,17 @@ struct Consistency {
     double largest_jump_m = 0;
 };
 
+/** Standard deviations of each component of the true poses. */
+struct TruthAccuracy {
+    double sigma_m = 0, sigma_rad = 0;
+};
+
 /** Errors are those left when the believed poses lie over the truth by least squares, a radian
  *  counting as half a meter or so. The truth is interpolated.
+ *  \param accuracy of the truth, whose variance is added to the claimed one
  *  \throws Error when fewer than two believed poses have a truth */
-Consistency evaluateConsistency(const std::vector<ClaimedPose>& poses, const Trajectory& truth);
+Consistency evaluateConsistency(const std::vector<ClaimedPose>& poses, const Trajectory& truth,
+                                const TruthAccuracy& accuracy = {});
 
 /** trajectory.txt and frames.csv of a run's folder.
  *  \throws Error naming the file and line where one is missing or damaged, or tells no standard
