@@ -46,6 +46,38 @@ void setSize(const std::string& text, synth::FilmOptions& options) {
         throw Error("--size " + text + " is no size from 64x48 to 4096x4096", "write e.g. 640x480");
 }
 
+void setBlackouts(const std::vector<double>& from_and_length, synth::FilmOptions& options) {
+    if (from_and_length.size() % 2 != 0)
+        throw Error("--blackout has a start without a length", "write --blackout FROM SECONDS");
+    for (std::size_t i = 0; i < from_and_length.size(); i += 2)
+        options.blackouts.emplace_back(from_and_length[i],
+                                       from_and_length[i] + from_and_length[i + 1]);
+}
+
+/** Of inertial sensors and wheels. */
+void declareSensorErrors(CLI::App& app, synth::FilmOptions& options) {
+    synth::InertialModel& imu = options.inertial;
+    const auto pair = [&](const char* name, const char* what, double& force, double& rate) {
+        app.add_option_function<std::vector<double>>(
+               name, [&force, &rate](const std::vector<double>& v) { force = v[0], rate = v[1]; },
+               what)
+            ->expected(2)
+            ->type_name("FORCE RATE");
+    };
+    pair("--imu-walk", "random walk of the IMU's biases, m/s^2 and rad/s per square root of 1 s",
+         imu.force_walk, imu.rate_walk);
+    pair("--imu-warming", "change of the IMU's biases as it warms up from 5 s on, m/s^2 and rad/s",
+         imu.force_warming, imu.rate_warming);
+    pair("--imu-limit", "the IMU saturates there, m/s^2 and rad/s", imu.largest_force,
+         imu.largest_rate);
+    app.add_option_function<double>(
+           "--imu-offset", [&imu](double ms) { imu.time_offset_s = 1e-3 * ms; },
+           "the IMU's stamps are late by this, ms")
+        ->type_name("MS");
+    app.add_option("--wheel-radius-error", options.wheel_radius_error,
+                   "share by which the wheels are larger than their driver knows");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -56,7 +88,7 @@ int main(int argc, char** argv) {
     synth::FilmOptions options;
     std::string scenario, folder, size = "640x480", noise = "kinect";
     std::vector<std::string> sheet;
-    std::vector<double> mount;
+    std::vector<double> mount, blackouts;
     double readout_ms = 0;
     bool list_only = false;
     app.add_option("scenario", scenario, "see --list");
@@ -90,7 +122,11 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_flag_callback(
         "--without-movers", [&] { options.movers = false; },
-        "the same film without what deceives the camera: movers, arm, dirt, flare");
+        "the same film without what deceives the camera: movers, arm, dirt, flare, blackouts");
+    app.add_option("--blackout", blackouts,
+                   "FROM SECONDS...: cover the camera for so long; may be repeated")
+        ->type_name("FROM SECONDS");
+    declareSensorErrors(app, options);
     declareExamples(app,
                     {"rgbd-synth --list", "rgbd-synth office office --frames 100 --size 320x240"});
     declareCommonOptions(app);
@@ -103,6 +139,7 @@ int main(int argc, char** argv) {
         options.noise = noise == "kinect";
         std::copy(mount.begin(), mount.end(), options.mount.begin());
         setSize(size, options);
+        setBlackouts(blackouts, options);
         const synth::FilmSummary film = synth::film(synth::findScenario(scenario), options, folder);
         std::printf("%s: %s\n", folder.c_str(), inFigures(film).c_str());
         return 0;

@@ -1,4 +1,4 @@
-/** Scenarios in which something deceives the camera, each in a file of its own. */
+/** Scenarios in which something deceives the camera or the wheels, each in a file of its own. */
 #pragma once
 #include "rgbd_graphslam/synth/scenario.h"
 
@@ -15,5 +15,8 @@ Scenario underDesk();
 Scenario ceilingLamp();
 Scenario armInView();
 Scenario dirtyLens();
+Scenario blackout();
+Scenario blackoutRobot();
+Scenario wheelSlip();
 
 }  // namespace rgbd_graphslam::synth

@@ -1,6 +1,8 @@
 #include "rgbd_graphslam/synth/robot_sensors.h"
 
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace rgbd_graphslam::synth {
 
@@ -35,21 +37,46 @@ InertialReading trueInertial(const Motion& motion, double t) {
 InertialUnit::InertialUnit(const Motion& motion, const InertialModel& model, std::uint64_t seed)
     : motion_(motion), model_(model), seed_(seed) {
     Random random = Random::of(seed, 3);
-    force_bias_ = model.force_bias * normalVector(random);
-    rate_bias_ = model.rate_bias * normalVector(random);
+    first_bias_.head<3>() = model.force_bias * normalVector(random);
+    first_bias_.tail<3>() = model.rate_bias * normalVector(random);
+    Random warmth = Random::of(seed, 6);
+    warming_.head<3>() = model.force_warming * normalVector(warmth).normalized();
+    warming_.tail<3>() = model.rate_warming * normalVector(warmth).normalized();
+    bias_ = first_bias_;
 }
 
-InertialReading InertialUnit::read(double t, std::uint64_t index) const {
+void InertialUnit::walk(double t, std::uint64_t index) {
+    Random random = Random::of(seed_, 7, index);
+    const double root = std::sqrt(std::max(0.0, t - last_t_));
+    if (index == 0) {
+        walked_.setZero();
+    } else {
+        walked_.head<3>() += model_.force_walk * root * normalVector(random);
+        walked_.tail<3>() += model_.rate_walk * root * normalVector(random);
+    }
+    last_t_ = t;
+    const double warm_s = std::max(0.0, t - model_.warms_at_s);
+    bias_ = first_bias_ + walked_ + (1 - std::exp(-warm_s / model_.warming_s)) * warming_;
+}
+
+InertialReading InertialUnit::read(double t, std::uint64_t index) {
+    walk(t, index);
     Random random = Random::of(seed_, 4, index);
-    InertialReading reading = trueInertial(motion_, t);
-    reading.specific_force += force_bias_ + model_.force_noise * normalVector(random);
-    reading.angular_rate += rate_bias_ + model_.rate_noise * normalVector(random);
+    InertialReading reading = trueInertial(motion_, t - model_.time_offset_s);
+    reading.specific_force += bias_.head<3>() + model_.force_noise * normalVector(random);
+    reading.angular_rate += bias_.tail<3>() + model_.rate_noise * normalVector(random);
+    const auto saturate = [](double most, Vector3d& value) {
+        if (most > 0) value = value.cwiseMax(-most).cwiseMin(most);
+    };
+    saturate(model_.largest_force, reading.specific_force);
+    saturate(model_.largest_rate, reading.angular_rate);
     return reading;
 }
 
-Odometer::Odometer(const Motion& motion, const WheelModel& model, std::uint64_t seed)
-    : motion_(motion), model_(model), random_(Random::of(seed, 5)) {
-    scale_ = 1 + model.scale_error * random_.normal();
+Odometer::Odometer(const Motion& motion, const WheelModel& model, std::uint64_t seed,
+                   std::vector<SlipEpisode> slips)
+    : motion_(motion), model_(model), random_(Random::of(seed, 5)), slips_(std::move(slips)) {
+    scale_ = 1 + model.scale_error * random_.normal() - model.radius_error;
     turn_scale_ = 1 + model.turn_scale_error * random_.normal();
 }
 
@@ -63,15 +90,23 @@ Vector3d Odometer::advance(double t) {
         const double distance = moved.t.x();
         const double spread = std::sqrt(std::abs(distance));
         const double spin = random_.chance(model_.slip_chance) ? random_.uniform(1.2, 2) : 1;
-        const double wheels =
+        double wheels =
             distance * scale_ * spin + model_.distance_noise * spread * random_.normal();
-        const double turn =
-            heading(moved) * turn_scale_ + model_.turn_noise * spread * random_.normal();
+        double turn = heading(moved) * turn_scale_ + model_.turn_noise * spread * random_.normal();
+        for (const SlipEpisode& slip : slips_) {
+            const double share =
+                std::clamp((std::min(t, slip.to_s) - std::max(last_t_, slip.from_s)) /
+                               std::max(1e-9, t - last_t_),
+                           0.0, 1.0);
+            wheels += share * (slip.way_factor - 1) * distance;
+            turn += share * slip.turn_rad_s * (t - last_t_);
+        }
         estimate_.x() += wheels * std::cos(estimate_.z() + turn / 2);
         estimate_.y() += wheels * std::sin(estimate_.z() + turn / 2);
         estimate_.z() = std::remainder(estimate_.z() + turn, 2 * std::acos(-1.0));
     }
     last_true_ = now;
+    last_t_ = t;
     return estimate_;
 }
 

@@ -219,6 +219,9 @@ const std::vector<Scenario>& scenarios() {
         ceilingLamp(),
         armInView(),
         dirtyLens(),
+        blackout(),
+        blackoutRobot(),
+        wheelSlip(),
     };
     return all;
 }

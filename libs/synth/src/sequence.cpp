@@ -29,9 +29,9 @@ void writePicture(const std::string& path, const cv::Mat& picture) {
 }
 
 bool isCovered(const World& world, double t) {
-    for (const auto& [from, to] : world.covered)
-        if (t >= from && t < to) return true;
-    return false;
+    const auto within = [t](const auto& span) { return t >= span.first && t < span.second; };
+    return std::any_of(world.covered.begin(), world.covered.end(), within) ||
+           std::any_of(world.blackouts.begin(), world.blackouts.end(), within);
 }
 
 /** Films one session frame by frame: renders here, spoils and writes in the background. */
@@ -199,9 +199,28 @@ bool isMounted(const std::array<double, 6>& mount) {
     return mount != std::array<double, 6>{};
 }
 
+/** What the options add to the errors of the scenario's sensors. */
+void spoil(const FilmOptions& options, World& world) {
+    InertialModel& imu = world.inertial;
+    const InertialModel& more = options.inertial;
+    if (!options.noise) imu.force_bias = imu.force_noise = imu.rate_bias = imu.rate_noise = 0;
+    imu.force_walk += more.force_walk;
+    imu.rate_walk += more.rate_walk;
+    imu.force_warming += more.force_warming;
+    imu.rate_warming += more.rate_warming;
+    if (more.largest_force > 0) imu.largest_force = more.largest_force;
+    if (more.largest_rate > 0) imu.largest_rate = more.largest_rate;
+    imu.time_offset_s += more.time_offset_s;
+    if (!options.noise) world.wheels = {0, 0, 0, 0, 0};
+    world.wheels.radius_error += options.wheel_radius_error;
+}
+
 World worldOf(const Scenario& scenario, const FilmOptions& options) {
     World world = scenario.build(options.session, options.seed);
     if (isMounted(options.mount)) world = seenFrom(options.mount, std::move(world));
+    world.blackouts.insert(world.blackouts.end(), options.blackouts.begin(),
+                           options.blackouts.end());
+    spoil(options, world);
     return options.movers ? world : withoutMovers(world);
 }
 
@@ -265,7 +284,7 @@ FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std
     const Camera camera = synthCamera(options.width, options.height);
     writeCameraIni(folder, camera.intrinsics(), static_cast<bool>(world.motion.T_world_base),
                    options.mount);
-    writeMotionFiles(folder, options, world.motion, frames);
+    writeMotionFiles(folder, options.seed, world, frames);
     writeLabelsIni(folder + "/labels.ini");
     writeMovers(folder + "/movers.csv", options, world.movers, scene.figures, frames);
 

@@ -66,10 +66,8 @@ void writeVectors(const std::string& path, const char* header, int frames,
     });
 }
 
-void writeOdometry(const std::string& path, const FilmOptions& options, const Motion& motion,
-                   int frames) {
-    const WheelModel model = options.noise ? WheelModel{} : WheelModel{0, 0, 0, 0, 0};
-    Odometer odometer(motion, model, options.seed);
+void writeOdometry(const std::string& path, std::uint64_t seed, const World& world, int frames) {
+    Odometer odometer(world.motion, world.wheels, seed, world.slips);
     writeStream(path, [&](std::ostream& out) {
         out << "# wheel odometry of the planar robot's base\n# timestamp x y theta\n";
         forEachReading(20, frames, [&](double t, long) {
@@ -77,6 +75,15 @@ void writeOdometry(const std::string& path, const FilmOptions& options, const Mo
             out << formatted("%.6f %.6f %.6f %.6f\n", kFirstStamp_s + t, pose.x(), pose.y(),
                              pose.z());
         });
+    });
+}
+
+void writeSlips(const std::string& path, const std::vector<SlipEpisode>& slips) {
+    writeStream(path, [&](std::ostream& out) {
+        out << "from_s,to_s,way_factor,turn_rad_s\n";
+        for (const SlipEpisode& slip : slips)
+            out << formatted("%.6f,%.6f,%.3f,%.3f\n", kFirstStamp_s + slip.from_s,
+                             kFirstStamp_s + slip.to_s, slip.way_factor, slip.turn_rad_s);
     });
 }
 
@@ -118,11 +125,10 @@ void writePictureLists(const std::string& folder, const FilmOptions& options, in
               [&](int i) { return depthStamp(options, i); });
 }
 
-void writeMotionFiles(const std::string& folder, const FilmOptions& options, const Motion& motion,
+void writeMotionFiles(const std::string& folder, std::uint64_t seed, const World& world,
                       int frames) {
-    writeTruth(folder + "/groundtruth.txt", motion, frames);
-    const InertialModel model = options.noise ? InertialModel{} : InertialModel{0, 0, 0, 0};
-    const InertialUnit unit(motion, model, options.seed);
+    writeTruth(folder + "/groundtruth.txt", world.motion, frames);
+    InertialUnit unit(world.motion, world.inertial, seed);
     writeVectors(folder + "/accelerometer.txt",
                  "# specific force in the color camera's optical frame, m/s^2\n"
                  "# timestamp ax ay az\n",
@@ -131,7 +137,9 @@ void writeMotionFiles(const std::string& folder, const FilmOptions& options, con
                  "# angular rate in the color camera's optical frame, rad/s\n"
                  "# timestamp wx wy wz\n",
                  frames, [&](double t, long i) { return unit.read(t, i).angular_rate; });
-    if (motion.T_world_base) writeOdometry(folder + "/odometry.txt", options, motion, frames);
+    if (!world.motion.T_world_base) return;
+    writeOdometry(folder + "/odometry.txt", seed, world, frames);
+    if (!world.slips.empty()) writeSlips(folder + "/slips.csv", world.slips);
 }
 
 void writeCameraIni(const std::string& folder, const Intrinsics& camera, bool on_robot,

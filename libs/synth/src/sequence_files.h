@@ -13,8 +13,9 @@ constexpr double kFirstStamp_s = 1000;
 std::string pictureName(const char* kind, double stamp_s);
 
 void writePictureLists(const std::string& folder, const FilmOptions& options, int frames);
-/** Truth at 100 Hz, inertial readings at 200 Hz and, for planar robots, odometry at 20 Hz. */
-void writeMotionFiles(const std::string& folder, const FilmOptions& options, const Motion& motion,
+/** Truth at 100 Hz, inertial readings at 200 Hz and, for planar robots, odometry at 20 Hz and when
+ *  the wheels slip. */
+void writeMotionFiles(const std::string& folder, std::uint64_t seed, const World& world,
                       int frames);
 /** \param mount as FilmOptions::mount */
 void writeCameraIni(const std::string& folder, const Intrinsics& camera, bool on_robot,

@@ -25,6 +25,8 @@ World withoutMovers(const World& world) {
     calm.movers.clear();
     calm.lens.reset();
     calm.motion.T_inertial_world = nullptr;
+    calm.blackouts.clear();
+    calm.slips.clear();
     return calm;
 }
 

@@ -50,7 +50,7 @@ TEST(Inertial, AtRestItFeelsGravityUpwards) {
 
 TEST(Inertial, MeanForceOfAScenarioIsGravity) {
     const World world = findScenario("office").build(1, 1);
-    const InertialUnit unit(world.motion, InertialModel{}, 1);
+    InertialUnit unit(world.motion, InertialModel{}, 1);
     Vector3d mean(0, 0, 0);
     const int count = 3000;
     for (int i = 0; i < count; ++i) {
@@ -102,6 +102,83 @@ TEST(Odometer, DriftsBySomePerCentOfTheWay) {
     const double drift = (pose.head<2>() - motion.T_world_base(40).t.head<2>()).norm();
     EXPECT_GT(drift, 0.02);
     EXPECT_LT(drift, 3);
+}
+
+TEST(Inertial, BiasesWalkAndWarmUpAsToldAndTheSameWayEachTime) {
+    Motion still;
+    still.T_world_cam = [](double) { return SE3(); };
+    InertialModel model{0, 0, 0, 0};
+    model.force_walk = 0.01;
+    model.rate_warming = 0.02;
+    Vector6d last = Vector6d::Zero();
+    double walked2 = 0;
+    constexpr int seeds = 200, readings = 2000;
+    for (int seed = 0; seed < seeds; ++seed) {
+        InertialUnit unit(still, model, seed);
+        for (int i = 0; i < readings; ++i) unit.read(i / 200.0, i);
+        last = unit.bias();
+        walked2 += last.head<3>().squaredNorm() / (3 * seeds);
+        EXPECT_NEAR(last.tail<3>().norm(), 0.02 * (1 - std::exp(-(9.995 - 5) / 3)), 1e-9);
+    }
+    EXPECT_NEAR(std::sqrt(walked2), 0.01 * std::sqrt(10.0), 0.005);
+    InertialUnit again(still, model, seeds - 1);
+    for (int repeat = 0; repeat < 2; ++repeat) {
+        for (int i = 0; i < readings; ++i) again.read(i / 200.0, i);
+        EXPECT_EQ(again.bias(), last);
+    }
+}
+
+TEST(Inertial, SaturatesAndIsLate) {
+    const Motion motion = findScenario("desk").build(1, 1).motion;
+    InertialModel model{0, 0, 0, 0};
+    model.time_offset_s = 0.1;
+    InertialUnit late(motion, model, 1);
+    EXPECT_LT((late.read(1.1, 0).angular_rate - trueInertial(motion, 1).angular_rate).norm(), 1e-9);
+    model.largest_force = 9;
+    InertialUnit limited(motion, model, 1);
+    double largest = 0;
+    for (int i = 0; i < 100; ++i) {
+        largest = std::max(largest, limited.read(0.1 * i, i).specific_force.cwiseAbs().maxCoeff());
+    }
+    EXPECT_EQ(largest, 9);
+}
+
+TEST(Odometer, TellsOfLargerWheelsTooShortAWay) {
+    const Motion motion = findScenario("long-run").build(1, 1).motion;
+    WheelModel model{0, 0, 0, 0, 0};
+    model.radius_error = 0.1;
+    Odometer odometer(motion, model, 1);
+    const Vector3d from = odometer.advance(0), to = odometer.advance(0.1);
+    const SE3 moved = motion.T_world_base(0).inverse() * motion.T_world_base(0.1);
+    EXPECT_NEAR((to - from).head<2>().norm(), 0.9 * moved.t.x(), 1e-6);
+}
+
+TEST(Odometer, SlipsInItsEpisodesOnly) {
+    const Motion motion = findScenario("long-run").build(1, 1).motion;
+    const SlipEpisode spin{2, 3, 2, 0.5};
+    Odometer true_way(motion, {0, 0, 0, 0, 0}, 1), slipping(motion, {0, 0, 0, 0, 0}, 1, {spin});
+    Vector3d a, b;
+    for (int i = 0; i <= 40; ++i) {
+        a = true_way.advance(0.05 * i);
+        b = slipping.advance(0.05 * i);
+    }
+    EXPECT_LT((a - b).norm(), 1e-9) << "before";
+    const Vector3d before = b;
+    for (int i = 41; i <= 80; ++i) {
+        a = true_way.advance(0.05 * i);
+        b = slipping.advance(0.05 * i);
+    }
+    EXPECT_NEAR(std::remainder(b.z() - a.z(), 2 * M_PI), 0.5, 1e-6);
+    EXPECT_GT((b - before).head<2>().norm(), 1.2);
+}
+
+TEST(Blackout, IsOverInTheSameFilmWithoutIt) {
+    for (const char* name : {"blackout", "blackout-robot", "wheel-slip"}) {
+        const World world = findScenario(name).build(1, 1), calm = withoutMovers(world);
+        EXPECT_TRUE(!world.blackouts.empty() || !world.slips.empty());
+        EXPECT_TRUE(calm.blackouts.empty() && calm.slips.empty());
+        EXPECT_EQ(calm.motion.T_world_cam(4).t, world.motion.T_world_cam(4).t);
+    }
 }
 
 }  // namespace

@@ -65,10 +65,11 @@ INSTANTIATE_TEST_SUITE_P(All, EveryScenario,
                                          "dark", "long-run", "crowd", "follow-me", "door",
                                          "chair-moved", "pushed-cart", "starts-in-crowd", "lift",
                                          "under-desk", "ceiling-lamp", "arm-in-view",
-                                         "dirty-lens"));
+                                         "dirty-lens", "blackout", "blackout-robot",
+                                         "wheel-slip"));
 
 TEST(Scenario, TheListHoldsAllThatAreTested) {
-    EXPECT_EQ(scenarios().size(), 21u);
+    EXPECT_EQ(scenarios().size(), 24u);
 }
 
 TEST(Scenario, AnUnknownNameIsAnErrorThatListsTheNames) {

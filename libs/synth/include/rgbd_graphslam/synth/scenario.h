@@ -8,6 +8,7 @@
 #include "rgbd_graphslam/synth/lens_effect.h"
 #include "rgbd_graphslam/synth/motion.h"
 #include "rgbd_graphslam/synth/mover.h"
+#include "rgbd_graphslam/synth/robot_sensors.h"
 #include "rgbd_graphslam/synth/scene.h"
 
 namespace rgbd_graphslam::synth {
@@ -34,10 +35,15 @@ struct World {
     std::function<Scene()> scene_without_movers;
     /** Times [from, to) at which the camera is covered. */
     std::vector<std::pair<double, double>> covered;
+    /** The same, where that is all that is wrong: the way goes on as if nothing were. */
+    std::vector<std::pair<double, double>> blackouts;
+    InertialModel inertial;
+    WheelModel wheels;
+    std::vector<SlipEpisode> slips;
 };
 
 /** The same world without what deceives: movers are gone or rest, nothing is before the lens, the
- *  world is not carried. */
+ *  world is not carried, no blackouts, and the wheels hold the floor. */
 World withoutMovers(const World& world);
 
 /** A scenario by name, and how to build its world. */

@@ -2,6 +2,8 @@
 #pragma once
 #include <array>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "rgbd_graphslam/geometry/camera.h"
 #include "rgbd_graphslam/synth/scenario.h"
@@ -28,6 +30,12 @@ struct FilmOptions {
     std::array<double, 6> mount{};
     /** false: the same film without what deceives a camera, see withoutMovers(). */
     bool movers = true;
+    /** Times [from, to) at which the camera is covered, besides the scenario's. */
+    std::vector<std::pair<double, double>> blackouts;
+    /** Added to the scenario's: the biases' random walk and warming up, saturation, time offset. */
+    InertialModel inertial{0, 0, 0, 0};
+    /** See WheelModel::radius_error. */
+    double wheel_radius_error = 0;
 };
 
 /** The camera of a sequence: 525 pixels of focal length at 640 x 480, scaled to other widths. */
@@ -51,9 +59,10 @@ struct FilmSummary {
 FilmSummary summary(const World& world, int frames);
 
 /** Renders all frames and writes rgb/, depth/, rgb.txt, depth.txt, groundtruth.txt,
- *  accelerometer.txt, gyroscope.txt, odometry.txt (planar robots only), camera.ini, surface.ply,
- *  and what is known of each color picture under its name: movers/ (255 where it shows what moves
- * by itself or belongs to lens or carrier) and label/ (classes, named in labels.ini); movers.csv
+ *  accelerometer.txt, gyroscope.txt, odometry.txt (planar robots only), slips.csv (where wheels
+ *  slip for a while), camera.ini, surface.ply, and what is known of each color picture under its
+ *  name: movers/ (255 where it shows what moves by itself or belongs to lens or carrier) and label/
+ *  (classes, named in labels.ini); movers.csv
  * tells where the movers were. The bytes depend on scenario and options alone. Memory does not grow
  * with the frames. \throws Error when the folder holds frames already or cannot be written */
 FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std::string& folder);
