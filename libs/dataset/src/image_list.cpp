@@ -7,6 +7,7 @@
 
 #include "number_text.h"
 #include "rgbd_graphslam/core/error.h"
+#include "scan_list.h"
 #include "stamp_unit.h"
 
 namespace rgbd_graphslam {
@@ -124,6 +125,8 @@ void readMotionFiles(const std::string& folder, RgbdSequence& sequence) {
     sequence.acceleration = readVectors(path / "accelerometer.txt", "stamp ax ay az");
     sequence.angular_velocity = readVectors(path / "gyroscope.txt", "stamp wx wy wz");
     sequence.odometry = readVectors(path / "odometry.txt", "stamp x y theta");
+    const auto scans = readScanList((path / "scans.txt").string());
+    sequence.others.insert(sequence.others.end(), scans.begin(), scans.end());
 }
 
 void unifyStamps(RgbdSequence& sequence, bool images_in_seconds, const ImageListNames& names) {

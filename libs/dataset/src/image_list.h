@@ -21,7 +21,8 @@ std::string listedFile(const std::string& folder, const std::string& entry,
 std::vector<ListedImage> readImageList(const std::string& folder, const std::string& name,
                                        std::vector<std::string>& notes);
 
-/** Reads accelerometer.txt, gyroscope.txt, odometry.txt and groundtruth.txt, where present.
+/** Reads accelerometer.txt, gyroscope.txt, odometry.txt, scans.txt and groundtruth.txt, where
+ *  present.
  *  \throws Error naming file and line that do not have their form */
 void readMotionFiles(const std::string& folder, RgbdSequence& sequence);
 

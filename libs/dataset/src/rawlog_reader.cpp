@@ -3,6 +3,8 @@
 #include <mrpt/img/CImage.h>
 #include <mrpt/io/CFileGZInputStream.h>
 #include <mrpt/obs/CActionCollection.h>
+#include <mrpt/obs/CActionRobotMovement2D.h>
+#include <mrpt/obs/CObservationOdometry.h>
 #include <mrpt/obs/CSensoryFrame.h>
 #include <mrpt/serialization/CArchive.h>
 
@@ -127,10 +129,35 @@ class RawlogReader::Implementation {
         if (const auto one = std::dynamic_pointer_cast<CObservation>(entry)) {
             waiting_.push_back(one);
         } else if (const auto many = std::dynamic_pointer_cast<mrpt::obs::CSensoryFrame>(entry)) {
+            if (moved_ && many->size() > 0) queueOdometry((*many->begin())->timestamp);
             waiting_.insert(waiting_.end(), many->begin(), many->end());
-        } else if (!std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(entry)) {
+        } else if (const auto actions =
+                       std::dynamic_pointer_cast<mrpt::obs::CActionCollection>(entry)) {
+            noteMotion(*actions);
+        } else {
             refuse("is not a rawlog");
         }
+    }
+
+    /** An action is the motion since the sensory frame before. */
+    void noteMotion(const mrpt::obs::CActionCollection& actions) {
+        const auto motion = actions.getActionByClass<mrpt::obs::CActionRobotMovement2D>();
+        if (!motion) return;
+        const bool by_wheels =
+            motion->estimationMethod == mrpt::obs::CActionRobotMovement2D::emOdometry;
+        odometry_ = odometry_ + (by_wheels || !motion->poseChange
+                                     ? motion->rawOdometryIncrementReading
+                                     : mrpt::poses::CPose2D(motion->poseChange->getMeanVal()));
+        moved_ = true;
+    }
+
+    /** The motions so far, as odometry of the moment of a sensory frame. */
+    void queueOdometry(mrpt::Clock::time_point stamp) {
+        const auto odometry = mrpt::obs::CObservationOdometry::Create();
+        odometry->sensorLabel = "ODOMETRY";
+        odometry->timestamp = stamp;
+        odometry->odometry = odometry_;
+        waiting_.push_back(odometry);
     }
 
     /** detectImagesDirectory of MRPT 2.5 drops a slash, hence our own. */
@@ -144,6 +171,8 @@ class RawlogReader::Implementation {
     std::optional<std::uint32_t> gz_size_;
     mrpt::io::CFileGZInputStream file_;
     std::deque<CObservation::Ptr> waiting_;
+    mrpt::poses::CPose2D odometry_;  // sum of all actions
+    bool moved_ = false;
     std::size_t entries_ = 0;
 };
 

@@ -138,6 +138,10 @@ NavSatFix readNavSatFix(WireReader in) {
     fix.latitude_deg = in.number<double>();
     fix.longitude_deg = in.number<double>();
     fix.altitude_m = in.number<double>();
+    Eigen::Matrix3d covariance_m2;
+    for (int i = 0; i < 9; ++i) covariance_m2(i / 3, i % 3) = in.number<double>();
+    const bool is_known = in.number<std::uint8_t>() != 0;
+    if (is_known && covariance_m2.allFinite()) fix.covariance_m2 = covariance_m2;
     return fix;
 }
 

@@ -78,6 +78,8 @@ struct NavSatFix {
     /** -1 no fix, 0 fix, 1 satellite-based, 2 ground-based augmentation. */
     int status = 0;
     double latitude_deg = 0, longitude_deg = 0, altitude_m = 0;
+    /** East, north, up, m^2; zero where the driver does not know it. */
+    Eigen::Matrix3d covariance_m2 = Eigen::Matrix3d::Zero();
 };
 
 /** Each reads a message as serialized, from behind the encapsulation.

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "rgbd_graphslam/dataset/gps_accuracy.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 
 namespace rgbd_graphslam {
@@ -62,6 +63,11 @@ mrpt::obs::CObservation::Ptr toObservation(const ros::NavSatFix& fix, const std:
     gga.fields.longitude_degrees = fix.longitude_deg;
     gga.fields.altitude_meters = fix.altitude_m;
     gga.fields.fix_quality = fixQuality(fix.status);
+    const double horizontal_m2 = fix.covariance_m2.topLeftCorner<2, 2>().trace();
+    if (horizontal_m2 > 0) {
+        gga.fields.thereis_HDOP = true;
+        gga.fields.HDOP = static_cast<float>(std::sqrt(horizontal_m2) / gps_range_error_m);
+    }
     auto observation = mrpt::obs::CObservationGPS::Create();
     observation->sensorLabel = label;
     observation->timestamp = toMrptTime(fix.header.stamp_s);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservation2DRangeScan.h>
 
 #include <cstdlib>
 
@@ -41,6 +42,29 @@ TEST(TumSequence, listsAreReadWithTheirSensors) {
     EXPECT_EQ(sequence.acceleration.at(0).value, Eigen::Vector3d(-0.478957, 8.01056, -4.166928));
     EXPECT_EQ(sequence.angular_velocity.at(0).value, Eigen::Vector3d(0.1, 0.2, 0.3));
     EXPECT_EQ(sequence.odometry.at(1).value, Eigen::Vector3d(0.6, -0.5, -3.1));
+}
+
+TEST(TumSequence, scansAreReadWithTheirScanner) {
+    const TestFolder folder;
+    folder.write("s/rgb.txt", "1 a.png\n");
+    folder.write("s/depth.txt", "1 b.png\n");
+    folder.write("s/scans.txt",
+                 "# aperture_deg = 180\n# max_range_m = 20\n# sensor_pose = [0.2 0 0.3 90 0 0]\n"
+                 "1 0.5 0 2.25\n1.5 1 1 1\n");
+    const auto others = readTumSequence(folder / "s").others;
+    ASSERT_EQ(others.size(), 2u);
+    const auto scan = std::dynamic_pointer_cast<mrpt::obs::CObservation2DRangeScan>(others[0]);
+    ASSERT_TRUE(scan);
+    EXPECT_NEAR(scan->aperture, M_PI, 1e-6);
+    EXPECT_NEAR(scan->sensorPose.yaw(), M_PI / 2, 1e-6);
+    EXPECT_NEAR(scan->sensorPose.z(), 0.3, 1e-6);
+    EXPECT_EQ(scan->getScanRange(2), 2.25f);
+    EXPECT_TRUE(scan->getScanRangeValidity(0));
+    EXPECT_FALSE(scan->getScanRangeValidity(1));
+    folder.write("s/scans.txt", "# aperture_deg = 180\n# max_range_m = 20\n1 1 1 1\n2 1 1\n");
+    EXPECT_THAT(complaintAbout(folder), HasSubstr("scans.txt:4: not as many ranges"));
+    folder.write("s/scans.txt", "1 1 1 1\n");
+    EXPECT_THAT(complaintAbout(folder), HasSubstr("lacks '# aperture_deg = DEGREES'"));
 }
 
 TEST(TumSequence, mistakesAreNamedWithFileAndLine) {

@@ -20,9 +20,10 @@ class RawlogReader {
     RawlogReader(const RawlogReader&) = delete;
     RawlogReader& operator=(const RawlogReader&) = delete;
 
-    /** The next observation, those inside sensory frames one by one; nullptr at the end.
-     *  \throws Error naming entry and byte where the file is cut off or damaged; everything before
-     *          has been handed out by then */
+    /** The next observation, those inside sensory frames one by one; nullptr at the end. The
+     * motions of actions are summed up and handed out as a CObservationOdometry 'ODOMETRY' before
+     * the sensory frame that they lead to, with its stamp. \throws Error naming entry and byte
+     * where the file is cut off or damaged; everything before has been handed out by then */
     mrpt::obs::CObservation::Ptr next();
 
     /** Share of the file that is read, 0 to 1. */
