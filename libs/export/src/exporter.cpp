@@ -25,6 +25,8 @@ std::vector<std::unique_ptr<const Exporter>> makeExporters() {
     all.push_back(kittiExporter());
     all.push_back(eurocExporter());
     all.push_back(g2oExporter());
+    all.push_back(kmlExporter());
+    all.push_back(geoJsonExporter());
     return all;
 }
 

@@ -16,5 +16,7 @@ std::unique_ptr<const Exporter> glbExporter();
 std::unique_ptr<const Exporter> objExporter();
 std::unique_ptr<const Exporter> ros2BagExporter();
 std::unique_ptr<const Exporter> metricMapExporter();
+std::unique_ptr<const Exporter> kmlExporter();
+std::unique_ptr<const Exporter> geoJsonExporter();
 
 }  // namespace rgbd_graphslam

@@ -11,6 +11,8 @@ std::vector<Options*> JobOptions::all() {
     const auto of_slam = slam.all();
     structs.insert(structs.end(), of_slam.begin(), of_slam.end());
     structs.push_back(&maps);
+    structs.push_back(&laser);
+    structs.push_back(&gps);
     return structs;
 }
 

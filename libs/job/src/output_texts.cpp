@@ -140,6 +140,22 @@ Json sensorsJson(const JobReport& report) {
     return sensors;
 }
 
+Json sensorFiguresJson(const JobReport& report) {
+    Json sensors = Json::array();
+    for (const SensorFigures& sensor : report.sensor_figures) {
+        sensors.push_back({{"label", sensor.label},
+                           {"class", sensor.class_name},
+                           {"readings", sensor.readings},
+                           {"used", sensor.used},
+                           {"rate_hz", sensor.rate_hz},
+                           {"longest_gap_s", sensor.longest_gap_s},
+                           {"residual_m", orNull(sensor.residual_m)},
+                           {"whitened_residual", orNull(sensor.whitened)},
+                           {"use", sensor.use}});
+    }
+    return sensors;
+}
+
 }  // namespace
 
 StageFigures figuresOf(const std::vector<double>& ms) {
@@ -187,6 +203,7 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"rawlog", std::filesystem::absolute(job.rawlog).lexically_normal().string()},
         {"sensor", labelJson(job.sensor_label)},
         {"sensors", sensorsJson(report)},
+        {"sensor_figures", sensorFiguresJson(report)},
         {"map", mapJson(job)},
         {"earlier_sessions", earlierJson(report)},
         {"interrupted", report.interrupted},

@@ -105,6 +105,13 @@ void describeMapQuality(const MapInputs& inputs, const MapSnapshot& map, RunStat
     quality.depth_p05 = percentileOf(run.depth_shares, 0.05);
 }
 
+/** Their scans are in the grid. */
+void noteLasersAsUsed(JobReport& report) {
+    for (SensorRecord& sensor : report.sensors) {
+        sensor.used |= sensor.class_name == "CObservation2DRangeScan";
+    }
+}
+
 void writeMap(RunState& run) {
     writeTextAtomically(pathOf(run, "covisibility.csv"),
                         covisibilityCsv(run.report.covisibility_edges));
@@ -125,7 +132,8 @@ void writeMap(RunState& run) {
                    {std::move(map), T_up_world, configHash(run.job.options), run.sessions()});
     const ThreadClock clock;
     if (run.job.options.run.dense_maps) {
-        writeMaps(upright, run.job.options.maps, run.job.out_folder);
+        const MapSummary maps = writeMaps(upright, run.job.options.maps, run.job.out_folder);
+        if (maps.scans > 0) noteLasersAsUsed(run.report);
     }
     run.report.maps_wall_s = 1e-3 * clock.wallMs();
 }

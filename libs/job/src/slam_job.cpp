@@ -4,6 +4,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
+#include "cameraless_job.h"
 #include "checkpoint.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/console.h"
@@ -71,6 +72,9 @@ SlamJob resumedJob(const std::string& out_folder) {
 
 JobReport runSlamJob(const SlamJob& job) {
     checkFolders(job);
+    if (!job.resume) {
+        if (const auto report = runWithoutCamera(job)) return *report;
+    }
     auto start = readStart(job);
     makeWritableFolder(job.out_folder);
     RunState run(job, std::move(start));

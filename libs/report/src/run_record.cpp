@@ -128,6 +128,18 @@ QualityRecord qualityOf(const Json& quality) {
     return record;
 }
 
+/** Runs of earlier versions have none. */
+std::vector<SensorUse> sensorsOf(const Json& figures) {
+    std::vector<SensorUse> sensors;
+    for (const Json& sensor : figures) {
+        sensors.push_back({sensor.at("label"), sensor.at("class"), sensor.at("use"),
+                           sensor.at("readings"), sensor.at("used"), sensor.at("rate_hz"),
+                           sensor.at("longest_gap_s"), numberAt(sensor, {"residual_m"}),
+                           numberAt(sensor, {"whitened_residual"})});
+    }
+    return sensors;
+}
+
 void readFigures(const Json& summary, RunRecord& run) {
     run.origin = originOf(summary);
     run.rawlog = textOf(summary, "rawlog");
@@ -151,6 +163,7 @@ void readFigures(const Json& summary, RunRecord& run) {
     for (const Json& edge : summary.at("loop_edges")) {
         run.loops.push_back({edge.at(0), edge.at(1), edge.at(2), loopErrorOf(edge)});
     }
+    run.sensors = sensorsOf(summary.value("sensor_figures", Json::array()));
     run.quality = qualityOf(summary.value("quality", Json()));
     const Json ate = summary.value("ate", Json());
     if (!ate.is_null()) run.ate_rmse_m = ate.at("rmse_m").get<double>();

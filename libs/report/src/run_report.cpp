@@ -75,7 +75,7 @@ class Page {
 
   private:
     std::string subtitle() const {
-        std::string text = "RGB-D SLAM by rgbd-slam " + htmlEscaped(run_.version);
+        std::string text = "SLAM by rgbd-slam " + htmlEscaped(run_.version);
         if (!run_.origin.date.empty()) text += ", " + htmlEscaped(run_.origin.date);
         return text;
     }
@@ -120,6 +120,7 @@ class Page {
                section("Trajectory from above", pathChart(run_)) +
                section("Loop closure", loops()) +
                section("Quality without ground truth", qualitySection(run_)) +
+               section("Sensors", sensors(), "wide") +
                section("Error over time", ate_ ? errorChart(run_, *ate_) : std::string()) +
                section("Inliers", landmarkChart(run_)) +
                section("CPU time by stage", stages(), "wide") +
@@ -149,7 +150,14 @@ class Page {
         return loopChart(run_) + note(loopSummary(run_)) + loopTable(run_);
     }
 
+    std::string sensors() const {
+        const std::string table = sensorTable(run_);
+        if (table.empty()) return {};
+        return table + note("Residuals are root mean squares; over sigma 1 is expected.");
+    }
+
     std::string stages() const {
+        if (run_.stages.empty()) return {};
         return stageTable(run_) +
                note(formatted("CPU time per call in ms, and share of the total. Dense maps took "
                               "another %.1f s.",

@@ -143,4 +143,20 @@ std::string stageTable(const RunRecord& run) {
     return html + "</table></div>";
 }
 
+std::string sensorTable(const RunRecord& run) {
+    if (run.sensors.empty()) return {};
+    std::string html =
+        "<div class=\"scroll\"><table><tr><th>sensor</th><th>used</th><th>rate</th>"
+        "<th>longest gap</th><th>residual</th><th>over sigma</th><th>used for</th></tr>\n";
+    for (const SensorUse& sensor : run.sensors) {
+        html += "<tr><td>" + htmlEscaped(sensor.label + " (" + sensor.class_name + ")") + "</td>" +
+                formatted("<td>%zu of %zu</td><td>%.1f Hz</td><td>%.2f s</td>", sensor.used,
+                          sensor.readings, sensor.rate_hz, sensor.longest_gap_s);
+        html += "<td>" + (sensor.residual_m ? formatted("%.3f m", *sensor.residual_m) : "") +
+                "</td><td>" + (sensor.whitened ? formatted("%.2f", *sensor.whitened) : "") +
+                "</td><td>" + htmlEscaped(sensor.use) + "</td></tr>\n";
+    }
+    return html + "</table></div>";
+}
+
 }  // namespace rgbd_graphslam

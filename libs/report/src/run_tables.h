@@ -21,4 +21,7 @@ std::string loopSummary(const RunRecord& run);
 /** CPU time by stage, its share of all of it, and a bar as long. */
 std::string stageTable(const RunRecord& run);
 
+/** What each sensor gave; nothing where it was not measured. */
+std::string sensorTable(const RunRecord& run);
+
 }  // namespace rgbd_graphslam

@@ -3,17 +3,21 @@
 #include <string>
 #include <vector>
 
+#include "rgbd_graphslam/fusion/gps_options.h"
 #include "rgbd_graphslam/job/run_options.h"
+#include "rgbd_graphslam/laser/laser_options.h"
 #include "rgbd_graphslam/mapping/map_options.h"
 #include "rgbd_graphslam/slam/slam_options.h"
 
 namespace rgbd_graphslam {
 
-/** The options of a run, its SLAM and its maps. */
+/** The options of a run, its SLAM and its maps; those of the laser for runs without a camera. */
 struct JobOptions {
     RunOptions run;
     SlamOptions slam;
     MapOptions maps;
+    LaserOptions laser;
+    GpsOptions gps;
 
     /** For IniFile::load and toIniText. */
     std::vector<Options*> all();

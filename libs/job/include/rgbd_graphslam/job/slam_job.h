@@ -48,6 +48,18 @@ struct ReportedLoop {
     std::optional<double> error_m;
 };
 
+/** What a sensor gave to the estimate. */
+struct SensorFigures {
+    std::string label, class_name;
+    std::size_t readings = 0, used = 0;
+    double rate_hz = 0, longest_gap_s = 0;
+    /** Root mean square of the residuals, m, and of the same over their standard deviations: 1 is
+     *  what is expected. Nothing where the sensor has no residuals. */
+    std::optional<double> residual_m, whitened;
+    /** What it was used for, in words. */
+    std::string use;
+};
+
 /** What came of a job. */
 struct JobReport {
     std::size_t frames = 0, tracked = 0, recovered = 0, dead_reckoned = 0, uncertain = 0, lost = 0;
@@ -62,6 +74,8 @@ struct JobReport {
     std::vector<PoseEdge> covisibility_edges;
     /** All that the rawlog holds, as far as it was read. */
     std::vector<SensorRecord> sensors;
+    /** Of the sensors that were used, where it was measured. */
+    std::vector<SensorFigures> sensor_figures;
     RunQuality quality;
     /** In such parts. */
     std::vector<int> disconnected_keyframes;
@@ -112,11 +126,13 @@ struct JobReport {
  *
  *  A rawlog that is cut off or damaged, SIGINT or SIGTERM, and the limits on keyframes and memory
  *  end the tracking; what was mapped by then is written and the report says so.
- *  Of the settings, what is left open (FeatureOptions::depth_max_m = 0) is decided by the first
- *  frames and written as decided. What looks wrong about them is warned of; a strict job refuses
- * it. \throws Error when the rawlog has no RGB-D frame, a strict job finds it wrong, nothing could
- * be mapped or located, the earlier map cannot be read or does not fit, or the folder cannot be
- * written */
+ *  A rawlog without a camera but with a 2-D laser scanner is mapped by laser and odometry; one with
+ *  GPS instead is a fusion of wheels, IMU and GPS. Poses are then of the robot's base, and there
+ * are no 3-D maps and no checkpoints. Of the settings, what is left open
+ * (FeatureOptions::depth_max_m = 0) is decided by the first frames and written as decided. What
+ * looks wrong about them is warned of; a strict job refuses it. \throws Error when the rawlog has
+ * no RGB-D frame, a strict job finds it wrong, nothing could be mapped or located, the earlier map
+ * cannot be read or does not fit, or the folder cannot be written */
 JobReport runSlamJob(const SlamJob& job);
 
 /** What the run in a folder was doing when it was killed or interrupted.

@@ -52,6 +52,15 @@ struct QualityRecord {
     std::optional<double> drift_gap_m, drift_path_m;
 };
 
+/** What a sensor gave to the estimate, as summary.json tells it. */
+struct SensorUse {
+    std::string label, class_name, use;
+    std::size_t readings = 0, used = 0;
+    double rate_hz = 0, longest_gap_s = 0;
+    /** Root mean square of the residuals: m, and over their standard deviations. */
+    std::optional<double> residual_m, whitened;
+};
+
 /** All that the report needs of an output folder. */
 struct RunRecord {
     RunOrigin origin;
@@ -68,6 +77,7 @@ struct RunRecord {
     std::vector<StageRecord> stages;
     std::vector<LoopRecord> loops;
     QualityRecord quality;
+    std::vector<SensorUse> sensors;
     /** How many have an error that only a wrong place explains; nothing without truth. */
     std::optional<std::size_t> false_loops;
 
