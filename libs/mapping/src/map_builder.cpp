@@ -21,6 +21,7 @@
 #include "rgbd_graphslam/mapping/plan_view.h"
 #include "rgbd_graphslam/mapping/simple_map.h"
 #include "rgbd_graphslam/mapping/view_coverage.h"
+#include "scan_layer.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -32,6 +33,7 @@ struct Maps {
     std::optional<DenseMapper> dense;
     std::optional<ViewCoverage> coverage;
     mrpt::maps::CSimpleMap simple;
+    ScanLayer scans;
     double insert_ms = 0;
 
     void addSight(const Keyframe3D& frame, const MapInputs& inputs, int session) {
@@ -115,10 +117,17 @@ std::size_t addSessions(Maps& maps, const MapInputs& inputs, const MapOptions& o
     for (std::size_t i = 0; i < recordings.size(); ++i) {
         if (recordings[i].keyframes.empty()) continue;
         try {
-            added += forEachKeyframe(recordings[i].camera, recordings[i].keyframes, "mapping",
-                                     [&](const Keyframe3D& keyframe) {
-                                         maps.add(keyframe, inputs, options, static_cast<int>(i));
-                                     });
+            const Trajectory& way =
+                recordings[i].is_earlier ? recordings[i].keyframes : inputs.trajectory;
+            std::optional<SE3> T_base_cam;
+            added += forEachKeyframe(
+                recordings[i].camera, recordings[i].keyframes, "mapping",
+                [&](const Keyframe3D& keyframe) {
+                    maps.add(keyframe, inputs, options, static_cast<int>(i));
+                    T_base_cam = keyframe.T_base_cam;
+                },
+                [&](const mrpt::obs::CObservation& entry) { maps.scans.note(entry, way); });
+            if (T_base_cam) maps.scans.place(*T_base_cam);
         } catch (const Error& e) {
             if (!recordings[i].is_earlier) throw;
             sayWarning(std::string("an earlier session is left out of the maps: ") + e.what());
@@ -168,6 +177,7 @@ MapSummary writeFiles(const MapInputs& inputs, const Maps& maps, const MapOption
     saveColorOcTree(path("octree.ot"), *maps.dense->colorOctree());
     mrpt::maps::COccupancyGridMap2D grid;
     maps.dense->grid(grid);
+    summary.scans = maps.scans.mergeInto(grid, options);
     saveMrptObject(path("grid.gridmap.gz"), grid);
     saveRosGrid(path("grid"), grid);
     saveMrptObject(path("map.simplemap"), maps.simple);

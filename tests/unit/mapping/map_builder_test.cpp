@@ -110,6 +110,84 @@ double tiltDegrees(const SE3& T_up_world) {
     return std::acos(std::min(1., up.z())) * 180 / M_PI;
 }
 
+/** A pane of glass before a laser scanner in the camera's place: the depth image has none of it. */
+class MapBuilderWithScanner : public MapBuilder {
+  protected:
+    static constexpr double pane_m = 0.8;
+
+    /** \param sensor_z_m of the scanner above the camera */
+    void writeWalkWithScans(double sensor_z_m) const {
+        writeRawlog(inputs_.rawlog, RawlogStorage::Embedded, [&](RawlogWriter& writer) {
+            for (const auto& pose : inputs_.keyframes) {
+                writeFrame(writer, pose);
+                mrpt::obs::CObservation2DRangeScan scan;
+                scan.sensorLabel = "LASER";
+                scan.timestamp = toMrptTime(pose.stamp_s);
+                scan.sensorPose = mrpt::poses::CPose3D(0, 0, sensor_z_m, 0, 0, 0);
+                scan.aperture = 0.2f;
+                scan.maxRange = 20;
+                scan.resizeScan(21);
+                for (int i = 0; i < 21; ++i) {
+                    scan.setScanRange(i, pane_m);
+                    scan.setScanRangeValidity(i, true);
+                }
+                writer.write(scan);
+            }
+        });
+    }
+
+    mrpt::maps::COccupancyGridMap2D gridOfRun() const {
+        writeMaps(transformed(T_world_room.inverse(), inputs_), MapOptions(), path("out"));
+        return loadGridMap(path("out/grid.gridmap.gz"));
+    }
+
+    /** Whether the pane before a keyframe is an obstacle; nothing where it is not at an obstacle's
+     *  height. */
+    std::optional<bool> isObstacle(const mrpt::maps::COccupancyGridMap2D& grid,
+                                   std::size_t keyframe) const {
+        const Eigen::Vector3d pane = T_world_room.inverse() *
+                                     inputs_.keyframes[keyframe].T_world_cam *
+                                     Eigen::Vector3d(0, 0, pane_m);
+        if (pane.z() < 0.15 || pane.z() > 1.4) return std::nullopt;
+        for (int dx = -1; dx <= 1; ++dx) {
+            for (int dy = -1; dy <= 1; ++dy) {
+                const float free =
+                    grid.getCell(grid.x2idx(pane.x()) + dx, grid.y2idx(pane.y()) + dy);
+                if (free < 0.4f) return true;
+            }
+        }
+        return false;
+    }
+};
+
+TEST_F(MapBuilderWithScanner, glassThatOnlyTheScannerSeesIsAnObstacle) {
+    writeWalk(false);
+    const auto without = gridOfRun();
+    writeWalkWithScans(0);
+    const auto with = gridOfRun();
+    std::size_t looked = 0, found = 0, found_without = 0;
+    for (std::size_t k = 0; k < inputs_.keyframes.size(); ++k) {
+        const auto obstacle = isObstacle(with, k);
+        if (!obstacle) continue;
+        ++looked;
+        found += *obstacle;
+        found_without += *isObstacle(without, k);
+    }
+    EXPECT_GT(looked, 2u);
+    // Each scan has a pane of its own, and beams of some others pass through it.
+    EXPECT_GE(found + 2, looked);
+    EXPECT_LT(found_without, found);
+}
+
+TEST_F(MapBuilderWithScanner, scansAboveAllObstaclesAreLeftOutAndTold) {
+    writeWalkWithScans(4);
+    const WarningRecord record;
+    gridOfRun();
+    ASSERT_FALSE(record.warnings().empty());
+    EXPECT_NE(record.warnings().back().find("no scan of the laser 'LASER' meets anything"),
+              std::string::npos);
+}
+
 TEST_F(MapBuilder, uprightByTheFloorWithoutAccelerometer) {
     writeWalk(false);
     const SE3 T_up_world = T_gravity_world(inputs_, MapOptions());
