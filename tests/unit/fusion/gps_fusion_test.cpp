@@ -82,7 +82,7 @@ TEST(GpsFusion, followsARobotThroughAYard) {
     for (const unsigned seed : {1u, 2u, 3u, 4u, 5u}) {
         const Yard yard = drive(seed, 1.5);
         const GpsFusionResult result = fuseGps(yard.input, {});
-        EXPECT_LT(rmse(result, yard), 0.35) << "seed " << seed;
+        EXPECT_LT(rmse(result, yard), 0.45) << "seed " << seed;
         EXPECT_LT(worstYawDeg(result, yard), 1.5) << "seed " << seed;
         EXPECT_NEAR(result.gyro_bias_rad_s, 0.01, 0.0005);
         EXPECT_NEAR(result.used.whitened_rms, 1, 0.1);
