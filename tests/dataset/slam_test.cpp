@@ -28,9 +28,9 @@ std::ostream& operator<<(std::ostream& out, const Clip& clip) {
     return out << clip.name;
 }
 
-CameraSetup pinhole(double fx, double fy, double cx, double cy) {
+CameraSetup pinhole(double fx, double fy, double cx, double cy, int width = 640, int height = 480) {
     CameraSetup setup;
-    setup.camera = Intrinsics{640, 480, fx, fy, cx, cy, {}};
+    setup.camera = Intrinsics{width, height, fx, fy, cx, cy, {}};
     setup.depth_units = 1000;
     return setup;
 }
@@ -40,6 +40,8 @@ const Clip clips[] = {
     {"icl-livingroom-110", pinhole(525, 525, 319.5, 239.5), 110, 0.01},
     {"realsense-desk-250", pinhole(615.23, 615.46, 321.25, 244.25), 250, 0.03},
     {"arm-box-50", pinhole(615.2, 615.2, 298.44, 247.52), 50, 0.006},
+    // The camera stands still, and a person walks by.
+    {"kinect-fixed-person-180", pinhole(262.5, 262.5, 159.75, 119.75, 320, 240), 180, 0.004},
     {"tum-fr2-pioneer-50", *cameraByName("fr2"), 50, {}},
     {"tum-fr1-desk-9", *cameraByName("fr1"), 9, 0.01},
 };

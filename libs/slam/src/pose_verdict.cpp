@@ -7,7 +7,7 @@ namespace {
 
 constexpr int few_inliers = 65;
 /** Standard deviations of the weakest direction beyond which a pose is not built on. */
-constexpr PoseSpread widest{0.05, 0.04};
+constexpr PoseSpread widest{0.025, 0.02};
 
 }  // namespace
 

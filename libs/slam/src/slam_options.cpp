@@ -29,6 +29,8 @@ void TrackerOptions::describe(OptionVisitor& v) {
            "Refine matched keypoints by aligning the landmark's image patch");
     v.flag("detect_standstill", detect_standstill,
            "Keep the pose of a keyframe while the image shows that the camera has not moved since");
+    v.flag("mask_moving", mask_moving,
+           "Ignore keypoints on moving objects: surfaces where earlier frames saw free space");
 }
 
 void KeyframeOptions::describe(OptionVisitor& v) {

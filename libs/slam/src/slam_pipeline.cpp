@@ -12,6 +12,10 @@ namespace {
 
 constexpr int fewest_first_landmarks = 50;
 constexpr int final_iterations = 10;
+/** Shared landmarks by which a keyframe passes on what is known of its pose. */
+constexpr int fewest_that_tie = 15;
+/** Frames between checks of whether the landmarks agree; every keyframe is checked. */
+constexpr int check_interval_frames = 15;
 
 }  // namespace
 
@@ -35,6 +39,7 @@ SlamPipeline::SlamPipeline(const SlamOptions& options, const Rig& rig)
       edges_(options_.sensor, cameras_, map_),
       fallback_(options_.recovery, tracker_),
       relocalizer_(options_, cameras_, map_, closer_, tracker_),
+      movers_(cameras_),
       decision_(options_.keyframes) {}
 
 Frame SlamPipeline::prepare(const std::vector<CameraImage>& images) const {
@@ -78,6 +83,7 @@ void SlamPipeline::save(ByteWriter& out) const {
     closer_.save(out);
     fallback_.save(out);
     relocalizer_.save(out);
+    movers_.save(out);
     decision_.save(out);
     trajectory_.save(out);
     uncertainty_.save(out);
@@ -96,6 +102,7 @@ void SlamPipeline::load(ByteReader& in) {
     closer_.load(in);
     fallback_.load(in, cameras_, builders_.front().viewCamera(), map_.levels());
     relocalizer_.load(in);
+    movers_.load(in, map_.keyframes().size());
     decision_.load(in, map_.keyframes().size());
     trajectory_.load(in, map_.keyframes().size());
     uncertainty_.load(in, map_.keyframes().size());
@@ -151,13 +158,7 @@ std::optional<LocatedFrame> SlamPipeline::trackBelievably(Frame& frame, FrameRec
     auto located = tracker_.track(frame);
     if (!located) return located;
     record.origin = FrameOrigin::Tracked;
-    if (options_.tracker.detect_standstill) {
-        const int nearest = map_.observers(located->landmarks).front().keyframe;
-        const Keyframe& keyframe = map_.keyframe(nearest);
-        if (standsAt(keyframe, frame, located->landmarks, map_, cameras_)) {
-            located->T_cam_world = keyframe.T_cam_world;
-        }
-    }
+    holdStill(frame, *located);
     if (!initialized_) return located;
     const SE3 T_last_cam = trajectory_.lastPose(map_) * located->T_cam_world.inverse();
     const Verdict verdict =
@@ -170,10 +171,44 @@ std::optional<LocatedFrame> SlamPipeline::trackBelievably(Frame& frame, FrameRec
     return std::nullopt;
 }
 
+/** The pose of a keyframe that the camera still stands at, whatever depth noise and movers say. */
+void SlamPipeline::holdStill(const Frame& frame, LocatedFrame& located) const {
+    if (!options_.tracker.detect_standstill) return;
+    const int nearest = map_.observers(located.landmarks).front().keyframe;
+    const Keyframe& keyframe = map_.keyframe(nearest);
+    if (standsAt(keyframe, frame, located.landmarks, map_, cameras_))
+        located.T_cam_world = keyframe.T_cam_world;
+}
+
+/** A pose that rests mostly on movers is not believed. */
+void SlamPipeline::removeMovers(Frame& frame, LocatedFrame& located, FrameRecord& record) {
+    const bool believed = record.origin == FrameOrigin::Tracked && frame.view.valid();
+    if (!options_.tracker.mask_moving || !believed) return;
+    const int reference = map_.observers(located.landmarks).front().keyframe;
+    const auto moving =
+        movers_.moving(frame, located.T_cam_world, map_.keyframe(reference).submap, map_);
+    if (!moving.empty()) {
+        LocatedFrame fixed = located;
+        Frame rest = frame;
+        removeKeypoints(moving, cameras_, rest, fixed.landmarks);
+        if (!tracker_.solveAgain(rest, fixed)) {
+            record.origin = FrameOrigin::Uncertain;
+            return;
+        }
+        frame = std::move(rest);
+        located = std::move(fixed);
+        holdStill(frame, located);
+    }
+    movers_.note(frame, located.T_cam_world, reference, map_);
+}
+
 std::optional<LocatedFrame> SlamPipeline::locate(Frame& frame, FrameRecord& record) {
     std::optional<LocatedFrame> located;
     times_.measure("track", [&] { located = trackBelievably(frame, record); });
-    if (located) return located;
+    if (located) {
+        times_.measure("movers", [&] { removeMovers(frame, *located, record); });
+        return located;
+    }
     applyPendingAdjustment();
     times_.measure("relocalize", [&] { located = relocalizer_.find(frame, prediction(frame)); });
     if (!located) return located;
@@ -197,12 +232,17 @@ void SlamPipeline::acceptTracked(Frame frame, LocatedFrame located, FrameRecord&
     initialized_ = true;
     int reference = map_.observers(located.landmarks).front().keyframe;
     const bool proves_a_place = record.origin == FrameOrigin::Recovered;
-    if (believed && (decision_.wants(map_, located, frames_since_keyframe_) || proves_a_place)) {
+    const bool inserts =
+        believed && (decision_.wants(map_, located, frames_since_keyframe_) || proves_a_place);
+    if (believed && (inserts || frames_since_keyframe_ % check_interval_frames == 0)) {
+        uncertainty_.note(disagreementOfHalves(
+            matchesOf(frame, located.landmarks, map_, options_.sensor), cameras_, located));
+    }
+    if (inserts) {
         applyPendingAdjustment();
         if (decision_.reference() != map_.keyframes().back().id) link_ = Link::None;
-        reference = insertKeyframe(
-            frame, located, map_.keyframe(reference).submap, reference,
-            {KeyframeLink::By::Landmarks, weakestDirection(covarianceAgainstMap(located))});
+        reference =
+            insertKeyframe(frame, located, map_.keyframe(reference).submap, tiesOf(located));
         record.keyframe = reference;
         located.landmarks = map_.keyframe(reference).landmarks;
     }
@@ -252,11 +292,12 @@ void SlamPipeline::startSubmap(Frame frame, FrameRecord& record) {
     LocatedFrame located;
     located.landmarks.assign(frame.keypoints.size(), no_landmark);
     if (!map_.keyframes().empty()) located.T_cam_world = record.T_cam_world(map_);
-    const KeyframeLink tie{KeyframeLink::By::DeadReckoning,
-                           tied ? fallback_.prior().spread() : PoseSpread()};
+    std::vector<KeyframeTie> ties;
+    if (tied)
+        ties.push_back({record.reference_keyframe, record.T_cam_reference,
+                        covarianceOf(fallback_.prior().spread())});
     const int id = insertKeyframe(
-        frame, located, tied ? map_.keyframe(record.reference_keyframe).submap : new_submap,
-        tied ? record.reference_keyframe : no_reference, tie);
+        frame, located, tied ? map_.keyframe(record.reference_keyframe).submap : new_submap, ties);
     located.landmarks = map_.keyframe(id).landmarks;
     if (!tied) record.origin = FrameOrigin::Tracked;
     record.keyframe = record.reference_keyframe = id;
@@ -287,7 +328,7 @@ std::vector<PoseEdge> SlamPipeline::findLoops(int keyframe) {
     if (!loops.empty()) applyPendingAdjustments();
     for (const PoseEdge& loop : loops) {
         mergeSubmaps(loop);
-        uncertainty_.closeLoop(loop.from, loop.to);
+        uncertainty_.closeLoop(loop.from, loop.to, loop.T_from_to);
     }
     return loops;
 }
@@ -320,13 +361,22 @@ void SlamPipeline::mergeSubmaps(const PoseEdge& loop) {
     }
 }
 
+/** A share of the landmarks ties less firmly than all of them. */
+std::vector<KeyframeTie> SlamPipeline::tiesOf(const LocatedFrame& located) const {
+    std::vector<KeyframeTie> ties;
+    const Matrix6d covariance = uncertainty_.scale() * covarianceAgainstMap(located);
+    for (const Covisibility& c : map_.observers(located.landmarks, fewest_that_tie)) {
+        const double share = std::min(1.0, c.shared / std::max(1.0, 1.0 * located.inliers));
+        ties.push_back({c.keyframe, located.T_cam_world * map_.T_cam_world(c.keyframe).inverse(),
+                        covariance / share});
+    }
+    return ties;
+}
+
 int SlamPipeline::insertKeyframe(const Frame& frame, const LocatedFrame& located, int submap,
-                                 int reference, const KeyframeLink& tie) {
+                                 const std::vector<KeyframeTie>& ties) {
     int id = 0;
-    const SE3 T_cam_reference = reference == no_reference
-                                    ? SE3()
-                                    : located.T_cam_world * map_.T_cam_world(reference).inverse();
-    uncertainty_.add(reference, T_cam_reference, tie);
+    uncertainty_.add(ties);
     times_.measure("map", [&] {
         id = map_.addKeyframe(frame, located.T_cam_world, submap, link_);
         map_.addObservations(located.landmarks, id);

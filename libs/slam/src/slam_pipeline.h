@@ -7,6 +7,7 @@
 #include "fallback_tracker.h"
 #include "keyframe_decision.h"
 #include "keyframe_edges.h"
+#include "mover_watch.h"
 #include "pose_verdict.h"
 #include "relocalizer.h"
 #include "rgbd_graphslam/features/frame_builder.h"
@@ -56,12 +57,15 @@ class SlamPipeline {
     void start(Frame frame, FrameRecord& record);
     std::optional<Prediction> prediction(const Frame& frame) const;
     std::optional<LocatedFrame> trackBelievably(Frame& frame, FrameRecord& record);
+    void holdStill(const Frame& frame, LocatedFrame& located) const;
+    void removeMovers(Frame& frame, LocatedFrame& located, FrameRecord& record);
     std::optional<LocatedFrame> locate(Frame& frame, FrameRecord& record);
     void acceptTracked(Frame frame, LocatedFrame located, FrameRecord& record);
     void handleTrackingLoss(Frame frame, FrameRecord& record);
     void startSubmap(Frame frame, FrameRecord& record);
-    int insertKeyframe(const Frame& frame, const LocatedFrame& located, int submap, int reference,
-                       const KeyframeLink& tie);
+    std::vector<KeyframeTie> tiesOf(const LocatedFrame& located) const;
+    int insertKeyframe(const Frame& frame, const LocatedFrame& located, int submap,
+                       const std::vector<KeyframeTie>& ties);
     /** Writes the local adjustment into the map, if one is under way. */
     void applyPendingAdjustment();
     /** The adjustment of everything as well. */
@@ -81,6 +85,7 @@ class SlamPipeline {
     const KeyframeEdges edges_;
     FallbackTracker fallback_;
     Relocalizer relocalizer_;
+    MoverWatch movers_;
     KeyframeDecision decision_;
     TrajectoryRecord trajectory_;
     MapUncertainty uncertainty_;

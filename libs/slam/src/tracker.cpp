@@ -242,6 +242,19 @@ std::optional<LocatedFrame> Tracker::trackLocalMap(Frame& frame, const SE3& T_ca
     return located;
 }
 
+bool Tracker::solveAgain(const Frame& frame, LocatedFrame& located) const {
+    const auto found = collect(frame, located.landmarks, map_, options_.sensor);
+    const PoseSolution solution = solvePose(cameras_.mounted(), found.matches, located.T_cam_world,
+                                            KernelShape::GemanMcClure);
+    if (solution.inliers < options_.tracker.min_inliers) return false;
+    located.T_cam_world = solution.T_body_world;
+    located.inliers = solution.inliers;
+    located.information = solution.information;
+    for (std::size_t m = 0; m < found.keypoints.size(); ++m)
+        if (!solution.inlier[m]) located.landmarks[found.keypoints[m]] = no_landmark;
+    return true;
+}
+
 /** Living landmarks of the keyframes that see the matched ones, without the matched ones. */
 std::vector<int> Tracker::localLandmarks(const std::vector<int>& matched) {
     ++search_;

@@ -79,9 +79,11 @@ TrackedFrame FrameRecord::view(const SlamMap& map, const MapUncertainty& uncerta
     if (map.keyframes().empty()) return frame;
     frame.submap = map.keyframe(reference_keyframe).submap;
     frame.T_world_cam = T_cam_world(map).inverse();
-    if (origin != FrameOrigin::Lost) {
-        frame.covariance = uncertainty.inWorld(unpacked(covariance), reference_keyframe);
-    }
+    if (origin == FrameOrigin::Lost) return frame;
+    const SE3 T_cam_origin = T_cam_world(map) * map.T_cam_world(frame.submap).inverse();
+    const double scale = origin == FrameOrigin::DeadReckoned ? 1 : uncertainty.scale();
+    frame.covariance = uncertainty.inWorld(scale * unpacked(covariance), reference_keyframe,
+                                           T_cam_reference, T_cam_origin);
     return frame;
 }
 

@@ -106,24 +106,5 @@ TEST(PoseVerdict, afterLongSilenceMuchIsPossible) {
     EXPECT_EQ(judge(locatedBy(400), off(2), prior), Verdict::Believed);
 }
 
-TEST(MapUncertainty, growsAlongTheWayAndShrinksByLoops) {
-    MapUncertainty uncertainty;
-    const auto sigma = [&](int keyframe) {
-        return weakestDirection(uncertainty.inWorld(Matrix6d::Zero(), keyframe)).m;
-    };
-    uncertainty.add(no_reference, SE3(), {});
-    for (int i = 1; i < 50; ++i) uncertainty.add(i - 1, off(0.2), {});
-    EXPECT_LT(sigma(0), sigma(10));
-    EXPECT_LT(sigma(10), sigma(49));
-    MapUncertainty poor;
-    poor.add(no_reference, SE3(), {});
-    poor.add(0, off(0.2), {KeyframeLink::By::Landmarks, {0.01, 0.005}});
-    EXPECT_GT(weakestDirection(poor.inWorld(Matrix6d::Zero(), 1)).m, 1.5 * sigma(1));
-    uncertainty.add(49, off(1), {KeyframeLink::By::DeadReckoning, {0.05, 0.01}});
-    EXPECT_GT(sigma(50), 0.05);
-    uncertainty.closeLoop(10, 50);
-    EXPECT_EQ(sigma(50), sigma(10));
-}
-
 }  // namespace
 }  // namespace rgbd_graphslam

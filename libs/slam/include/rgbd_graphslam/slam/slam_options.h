@@ -31,7 +31,8 @@ struct TrackerOptions : Options {
     int min_inliers = 25;
     int max_local_keyframes = 20;
     bool align_keypoints = true;
-    bool detect_standstill = false;
+    bool detect_standstill = true;
+    bool mask_moving = false;
 
     const char* section() const override { return "TrackerOptions"; }
     const char* about() const override { return "Tracking of every frame against the local map"; }

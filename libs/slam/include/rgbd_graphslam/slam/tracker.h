@@ -56,6 +56,10 @@ class Tracker {
                                               const std::vector<int>& landmarks,
                                               KernelShape kernel = KernelShape::Huber);
 
+    /** Solves for the pose of a located frame again, after landmarks were removed from it.
+     *  \return whether at least `min_inliers` agree; the pose is unchanged if not */
+    bool solveAgain(const Frame& frame, LocatedFrame& located) const;
+
     /** Searches the landmarks of some keyframes around a pose that dead reckoning tells, in windows
      *  as wide as it is uncertain, aligns the points by RANSAC and goes on as trackLocalMap().
      *  \return nothing when too few agree, or when the windows would be too wide to tell much */
