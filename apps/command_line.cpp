@@ -1,6 +1,7 @@
 #include "command_line.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -36,6 +37,10 @@ int endOfParsing(const CLI::App& app, const CLI::ParseError& end) {
     std::string problem = end.what();
     const auto unknown = app.remaining(true);
     if (!unknown.empty()) problem = "'" + unknown.front() + "' is not understood here";
+    const std::string conversion = "Could not convert: ";
+    if (problem.rfind(conversion, 0) == 0) {
+        problem = "cannot read '" + problem.substr(conversion.size()) + "'";
+    }
     std::replace(problem.begin(), problem.end(), '\n', ' ');
     throw Error(problem, "see " + commandOf(app) + " --help");
 }
@@ -70,6 +75,20 @@ std::string valueName(const CLI::Option& option, const std::string& type) {
                                                           {"pairs", "FILE"},
                                                           {"camera", "NAME|FILE"},
                                                           {"only", "I/N"},
+                                                          {"screenshot", "FILE"},
+                                                          {"snapshot", "FILE"},
+                                                          {"movers", "FILE"},
+                                                          {"register", "FILE"},
+                                                          {"azimuth", "DEGREES"},
+                                                          {"elevation", "DEGREES"},
+                                                          {"width", "PIXELS"},
+                                                          {"height", "PIXELS"},
+                                                          {"texture-size", "PIXELS"},
+                                                          {"benchmark", "SECONDS"},
+                                                          {"depth-offset", "SECONDS"},
+                                                          {"rate", "PER_SECOND"},
+                                                          {"max-depth", "METERS"},
+                                                          {"beyond", "METERS"},
                                                           {"set", "SECTION.KEY=VALUE"},
                                                           {"goal", "X,Y"},
                                                           {"start", "X,Y,PHI"},
@@ -83,7 +102,6 @@ std::string valueName(const CLI::Option& option, const std::string& type) {
                                                           {"voxel", "METERS"},
                                                           {"tolerance", "METERS"},
                                                           {"max-range", "METERS"},
-                                                          {"max-depth", "METERS"},
                                                           {"complete-within", "METERS"},
                                                           {"max-incidence", "DEGREES"},
                                                           {"registration-error", "PIXELS"},
@@ -114,29 +132,43 @@ void nameValues(CLI::App& app) {
     for (CLI::App* command : app.get_subcommands({})) nameValues(*command);
 }
 
+/** Words that are no numbers at all are left to the conversion. */
+CLI::Validator numberThat(const std::function<bool(double)>& holds, const std::string& problem) {
+    const auto complaint = [=](const std::string& text) -> std::string {
+        const double number = std::atof(text.c_str());
+        if (!std::isfinite(number)) return "'" + text + "' is not a finite number";
+        return holds(number) ? "" : "'" + text + "' " + problem;
+    };
+    return CLI::Validator(complaint, "");
+}
+
 }  // namespace
 
+CLI::Validator finite() {
+    return numberThat([](double) { return true; }, "is not a number");
+}
+
 CLI::Validator positive() {
-    const auto problem = [](const std::string& text) -> std::string {
-        return std::atof(text.c_str()) > 0 ? "" : "'" + text + "' is not above 0";
-    };
-    return CLI::Validator(problem, "");
+    return numberThat([](double number) { return number > 0; }, "is not above 0");
 }
 
 CLI::Validator notNegative() {
-    const auto problem = [](const std::string& text) -> std::string {
-        return std::atof(text.c_str()) >= 0 ? "" : "'" + text + "' is below 0";
-    };
-    return CLI::Validator(problem, "");
+    return numberThat([](double number) { return number >= 0; }, "is below 0");
+}
+
+CLI::Validator between(double low, double high) {
+    char problem[80];
+    std::snprintf(problem, sizeof problem, "is not from %g to %g", low, high);
+    return numberThat([=](double number) { return number >= low && number <= high; }, problem);
 }
 
 void declareCommonOptions(CLI::App& app) {
     nameValues(app);
     app.formatter(std::make_shared<UsageFormatter>());
     app.add_flag_callback(
-        "-q,--quiet", [] { setVerbosity(Verbosity::Quiet); }, "Only errors and results");
+        "-q,--quiet", [] { setVerbosity(Verbosity::Quiet); }, "Print only errors and results");
     app.add_flag_callback(
-        "-v,--verbose", [] { setVerbosity(Verbosity::Verbose); }, "Say more");
+        "-v,--verbose", [] { setVerbosity(Verbosity::Verbose); }, "Print more details");
     app.set_version_flag("--version", RGBD_VERSION);
     addPrinter(app, "--print-man-page", manPage);
     addPrinter(app, "--print-bash-completion", bashCompletion);

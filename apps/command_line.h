@@ -13,15 +13,17 @@ void declareCommonOptions(CLI::App& app);
 /** Command lines that --help and the manual page show. */
 void declareExamples(CLI::App& app, const std::vector<std::string>& commands);
 
-/** Checks whose complaints a person can read: CLI11's own name the largest double there is, and let
- *  -3 pass for an unsigned number. */
+/** Checks whose complaints a person can read: CLI11's own name the largest double there is, let -3
+ *  pass for an unsigned number and `nan` for any. */
+CLI::Validator finite();
 CLI::Validator positive();
 CLI::Validator notNegative();
+CLI::Validator between(double low, double high);
 
-/** A number that shows its default. \param check positive() or notNegative(), or none */
+/** A number that shows its default. \param check one of the above */
 template <class Number>
 CLI::Option* declareNumber(CLI::App& app, const std::string& option, Number& value,
-                           const std::string& help, const CLI::Validator& check = {}) {
+                           const std::string& help, const CLI::Validator& check = finite()) {
     return app.add_option(option, value, help)->check(check)->capture_default_str();
 }
 

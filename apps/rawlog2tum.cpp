@@ -16,12 +16,14 @@ struct Arguments {
 
 void declare(CLI::App& app, Arguments& args) {
     app.add_option("RAWLOG", args.rawlog, "Rawlog with RGB-D frames")->required();
-    app.add_option("DIR", args.folder, "Folder to make")->required();
+    app.add_option("DIR", args.folder, "New folder for the sequence")->required();
     app.add_option("--sensor", args.options.sensor_label,
                    "Sensor label of the camera to export; default: all, one subfolder per camera")
         ->type_name("LABEL");
-    app.add_option("--from", args.options.from_s, "Skip what is earlier [s after the first frame]");
-    app.add_option("--to", args.options.to_s, "Skip what is later [s after the first frame]");
+    app.add_option("--from", args.options.from_s, "Start this long after the first frame [s]")
+        ->check(finite());
+    app.add_option("--to", args.options.to_s, "End this long after the first frame [s]")
+        ->check(finite());
     app.add_option("--every", args.options.every, "Export every n-th frame only")
         ->check(positive())
         ->capture_default_str();
@@ -30,7 +32,7 @@ void declare(CLI::App& app, Arguments& args) {
         ->check(positive())
         ->capture_default_str();
     app.add_option("--threads", args.options.threads, "Threads that encode images")
-        ->check(CLI::Range(1, 256))
+        ->check(between(1, 256))
         ->capture_default_str();
     declareExamples(app, {"rawlog2tum office.rawlog office",
                           "rawlog2tum office.rawlog office --from 10 --to 20 --every 2"});

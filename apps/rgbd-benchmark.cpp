@@ -19,25 +19,27 @@ void declare(CLI::App& app, Arguments& args) {
     app.add_option("DIR", request.folders,
                    "Folders that hold sequences, their archives, bags or rawlogs, at any depth")
         ->required();
-    app.add_option("-o,--out", request.out_folder,
-                   "Folder for results and report.html, report.md; finished sequences in it are "
-                   "not run again unless recording, settings or programs changed");
+    app.add_option(
+        "-o,--out", request.out_folder,
+        "Folder for the results, report.html and report.md; finished sequences in it are "
+        "skipped unless recording, settings or programs changed");
     app.add_option("--config", request.run.ini,
                    "Settings of rgbd-slam; default: the shipped ones for the camera");
-    app.add_option("--set", request.run.assignments, "Section.key=value over them; repeatable")
+    app.add_option("--set", request.run.assignments, "Override an ini setting; may be repeated")
         ->allow_extra_args(false);
     app.add_option("--jobs", request.jobs,
-                   "Sequences at a time; 0: one for each two processors and 2 GB of free memory")
-        ->check(CLI::Range(0, 1024))
+                   "Sequences run at a time; 0: one per two processors and 2 GB of free memory")
+        ->check(between(0, 1024))
         ->capture_default_str();
     app.add_option("--only", args.share,
-                   "i/n: the i-th of n shares of the sequences, for several machines or jobs; each "
-                   "writes the report over all that is finished")
+                   "Run only the i-th of n shares of the sequences, to divide them among machines; "
+                   "each writes the report over all finished sequences")
         ->capture_default_str();
-    app.add_option("--table", request.table, "Best published figures; default: the shipped ones");
+    app.add_option("--table", request.table,
+                   "Ini file of the best published figures; default: the shipped one");
     app.add_flag("--no-maps", args.no_maps, "Trajectories only");
     app.add_flag("--keep-rawlogs", request.run.keep_rawlog, "Keep the imported rawlogs");
-    app.add_flag("--list", args.list, "Print the sequences found, run nothing");
+    app.add_flag("--list", args.list, "Print the sequences found and exit");
     declareExamples(app, {"rgbd-benchmark ~/tum -o results",
                           "rgbd-benchmark ~/tum -o results --only 1/4 --no-maps"});
     declareCommonOptions(app);
@@ -75,7 +77,7 @@ int run(Arguments& args) {
 
 int main(int argc, char** argv) {
     using namespace rgbd_graphslam;
-    CLI::App app("Runs import, SLAM and evaluation of many RGB-D sequences and reports on all",
+    CLI::App app("Imports, runs and evaluates many RGB-D sequences and writes one report",
                  "rgbd-benchmark");
     Arguments args;
     declare(app, args);

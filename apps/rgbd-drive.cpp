@@ -15,22 +15,29 @@ int main(int argc, char** argv) {
     ConfiguredInput run;
     std::vector<double> start, goal;
     CLI::App app(
-        "Plans a way through the saved map of a run and drives a simulated robot along it.",
+        "Plans a path through the map of a finished run and drives a simulated robot along it",
         "rgbd-drive");
     run.declare(app, "OUT", "Output folder of rgbd-slam",
                 "Robot and settings (default: the shipped drive.ini)");
-    app.add_option("--goal", goal, "x,y in the map, m")->delimiter(',')->expected(2)->required();
-    app.add_option("--start", start,
-                   "x,y,phi in the map, m and rad (default: below the first camera, its way)")
+    app.add_option("--goal", goal, "Goal in the map frame [m]")
         ->delimiter(',')
-        ->expected(3);
+        ->expected(2)
+        ->required()
+        ->check(finite());
+    app.add_option(
+           "--start", start,
+           "Start in the map frame [m, m, rad] (default: the first camera's position and heading)")
+        ->delimiter(',')
+        ->expected(3)
+        ->check(finite());
     app.add_option("--surface", request.surface,
-                   "True surface (.ply): check the driven path against it");
+                   "True surface (.ply) to check the driven path against, with --truth");
     app.add_option("--truth", request.truth,
-                   "True trajectory, which tells where the map lies in the true surface's frame");
+                   "Ground-truth trajectory, which aligns the map with the true surface");
     app.add_option("-o,--output", request.out_folder,
                    "Folder for path.csv and drive.png (default: OUT)");
-    app.add_option("--set", request.settings, "DriveOptions.key=value instead of the ini's");
+    app.add_option("--set", request.settings,
+                   "Override a setting of [DriveOptions]; may be repeated");
     declareExamples(
         app, {"rgbd-drive out --goal 1.5,0.5",
               "rgbd-drive out --config robot.ini --start 0,0,1.57 --goal=-3.5,3.5 -o drive"});

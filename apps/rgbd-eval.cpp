@@ -18,23 +18,24 @@ void declareFormat(CLI::App& command, ReportFormat& format) {
                    {"csv", ReportFormat::Csv},
                    {"json", ReportFormat::Json},
                    {"latex", ReportFormat::Latex}},
-                  "Of the table");
+                  "Output format");
 }
 
 void declareTrajectories(CLI::App& command, TrajectoryRequest& request, EstimateOptions& options) {
     command
         .add_option("EST... TRUTH", request.files,
-                    "Estimates, then the truth: TUM text files; the truth may be a .rawlog")
+                    "Estimated trajectories, then the ground truth: TUM text files; the truth may "
+                    "be a .rawlog")
         ->required()
         ->expected(2, CLI::detail::expected_max_vector_size);
     declareFormat(command, request.format);
-    command.add_flag("--per-axis", request.per_axis, "Errors along x, y and z too");
+    command.add_flag("--per-axis", request.per_axis, "Also report the errors along x, y and z");
     command.add_option("--plot-errors", request.errors_plot,
-                       "Picture of the errors over time, .png or .svg");
+                       "Plot the errors over time to this .png or .svg");
     command.add_option("--plot-distribution", request.distribution_plot,
-                       "Picture of the errors' distribution, .png or .svg");
-    declareNumber(command, "--offset", options.offset_s, "Added to the estimate's stamps, s");
-    declareNumber(command, "--scale", options.scale, "Factor on the estimate's positions",
+                       "Plot the distribution of the errors to this .png or .svg");
+    declareNumber(command, "--offset", options.offset_s, "Added to the stamps of the estimate [s]");
+    declareNumber(command, "--scale", options.scale, "Factor on the positions of the estimate",
                   positive());
 }
 
@@ -43,14 +44,14 @@ void addAte(CLI::App& app, AteRequest& request) {
     declareTrajectories(command, request, request.options);
     auto& options = request.options;
     declareNumber(command, "--max-difference", options.max_difference_s,
-                  "Stamps further apart are no pair, s", positive());
-    command.add_flag("--fit-scale", options.fit_scale, "Align with the scale that fits best")
+                  "Maximum time difference of a pair [s]", positive());
+    command.add_flag("--fit-scale", options.fit_scale, "Align with the best-fitting scale")
         ->excludes("--scale");
     command.add_option("--plot", request.plot,
-                       "Picture of truth, estimate and difference, .png or .svg");
+                       "Plot truth, estimate and difference to this .png or .svg");
     declareChoice(command, "--plane", request.plane,
                   {{"xy", PlotPlane::XY}, {"xz", PlotPlane::XZ}, {"yz", PlotPlane::YZ}},
-                  "Of the truth's frame, for --plot");
+                  "Plane of the plot, in the frame of the ground truth");
     command.final_callback([&request] { print(runAte(request)); });
 }
 
@@ -59,8 +60,8 @@ void addRpe(CLI::App& app, RpeRequest& request) {
     declareTrajectories(command, request, request.options);
     auto& options = request.options;
     command.add_flag("--fixed-delta", options.fixed_delta,
-                     "Pairs of poses --delta apart; without it all pairs");
-    declareNumber(command, "--delta", options.delta, "Distance of the two poses of a pair",
+                     "Evaluate pairs of poses --delta apart instead of all pairs");
+    declareNumber(command, "--delta", options.delta, "Distance between the two poses of a pair",
                   positive());
     declareChoice(command, "--delta-unit", options.unit,
                   {{"s", DeltaUnit::Seconds},
@@ -68,18 +69,19 @@ void addRpe(CLI::App& app, RpeRequest& request) {
                    {"rad", DeltaUnit::Radians},
                    {"deg", DeltaUnit::Degrees},
                    {"f", DeltaUnit::Frames}},
-                  "Of --delta; f: frames");
+                  "Unit of --delta; f: frames");
     declareNumber(command, "--max-pairs", options.max_pairs,
-                  "Draw so many when there are more; 0: all", notNegative());
-    declareNumber(command, "--seed", options.seed, "Of the drawing", notNegative());
+                  "Maximum number of pairs, drawn at random; 0: all", notNegative());
+    declareNumber(command, "--seed", options.seed, "Seed of the random draw", notNegative());
     command.final_callback([&request] { print(runRpe(request)); });
 }
 
 void addConsistency(CLI::App& app, ConsistencyRequest& request) {
     auto& command = *app.add_subcommand(
-        "consistency", "Whether tracked frames err as much as the run says, and how far they jump");
+        "consistency",
+        "Whether pose errors agree with the claimed standard deviations, and how far poses jump");
     command.add_option("RUN", request.run_folder, "Output folder of rgbd-slam")->required();
-    command.add_option("TRUTH", request.truth, "True trajectory: TUM text file or .rawlog")
+    command.add_option("TRUTH", request.truth, "Ground truth: TUM text file or .rawlog")
         ->required();
     declareNumber(command, "--truth-std-m", request.truth_std_m,
                   "Standard deviation of the ground truth's positions, m", notNegative());
@@ -95,8 +97,9 @@ void addAssociate(CLI::App& app, AssociateRequest& request) {
     command.add_option("FILE2", request.second, "List, e.g. depth.txt")->required();
     auto& options = request.options;
     declareNumber(command, "--max-difference", options.max_difference_s,
-                  "Stamps further apart are no pair, s", positive());
-    declareNumber(command, "--offset", options.offset_s, "Added to the second list's stamps, s");
+                  "Maximum time difference of a pair [s]", positive());
+    declareNumber(command, "--offset", options.offset_s,
+                  "Added to the stamps of the second list [s]");
     command.add_flag("--first-only", options.first_only, "Print lines of the first list only");
     command.final_callback([&request] { print(runAssociate(request)); });
 }
@@ -117,12 +120,12 @@ void addPointCloud(CLI::App& app, PointCloudRequest& request, std::vector<std::s
     auto& command = *app.add_subcommand("pointcloud", "Colored points of RGB-D images");
     command
         .add_option("RGB DEPTH OUT.ply", files,
-                    "Images, or with --trajectory lists of them; the file to write")
+                    "Color and depth image, or with --trajectory lists of images; file to write")
         ->required()
         ->expected(1, 3);
     command.add_option("--trajectory", request.trajectory, "Poses of the images, a TUM text file");
     command.add_option("--pairs", request.pairs,
-                       "List that 'associate' printed, in place of RGB and DEPTH");
+                       "List printed by 'rgbd-eval associate', in place of RGB and DEPTH");
     command
         .add_option("--camera", request.camera,
                     "fr1, fr2, fr3, ros or an ini file with [CAMERA_PARAMS]")
@@ -132,15 +135,15 @@ void addPointCloud(CLI::App& app, PointCloudRequest& request, std::vector<std::s
                     "Depth units per meter; default: the camera's")
         ->check(positive());
     declareNumber(command, "--max-difference", request.max_difference_s,
-                  "Stamps further apart are no pair, s", positive());
-    declareNumber(command, "--nth", request.every_image, "Take every n-th image", positive());
+                  "Maximum time difference of a pair [s]", positive());
+    declareNumber(command, "--nth", request.every_image, "Use every n-th image only", positive());
     auto& options = request.options;
     declareNumber(command, "--downsample", options.every_pixel,
-                  "Take every n-th pixel of a row and column", positive());
+                  "Use every n-th pixel of each row and column only", positive());
     declareNumber(command, "--max-depth", options.max_depth_m,
-                  "Leave out what is farther, m; 0: nothing", notNegative());
+                  "Leave out readings beyond this depth [m]; 0: keep all", notNegative());
     declareNumber(command, "--voxel", options.voxel_m,
-                  "Keep one point per cube of this side, m; 0: all", notNegative());
+                  "Keep one point per voxel of this size [m]; 0: keep all", notNegative());
     command.final_callback([&] {
         takeFiles(files, request);
         print(runPointCloud(request));
@@ -151,10 +154,10 @@ void declareAlignedMap(CLI::App& command, const std::string& map, SurfaceRequest
     command.add_option(map, request.map, "The map")->required();
     command.add_option("TRUE_SURFACE.ply", request.surface, "Triangles, or points close together")
         ->required();
-    auto* estimate =
-        command.add_option("--estimate", request.estimate,
-                           "Trajectory of the map: aligned with --truth, it moves the map");
-    command.add_option("--truth", request.truth, "True trajectory, in the surface's frame")
+    auto* estimate = command.add_option(
+        "--estimate", request.estimate,
+        "Trajectory of the map, which is aligned with --truth before the comparison");
+    command.add_option("--truth", request.truth, "Ground truth, in the frame of the surface")
         ->needs(estimate);
     estimate->needs("--truth");
     declareFormat(command, request.format);
@@ -163,13 +166,15 @@ void declareAlignedMap(CLI::App& command, const std::string& map, SurfaceRequest
 void declareSurface(CLI::App& command, const std::string& map, SurfaceRequest& request) {
     declareAlignedMap(command, map, request);
     command
-        .add_option("--camera", request.camera,
-                    "Name or ini file: tell of what the camera saw on the true trajectory, too")
+        .add_option(
+            "--camera", request.camera,
+            "Name or ini file of the camera: also evaluate the surface that it saw on the true "
+            "trajectory")
         ->needs("--truth");
-    declareNumber(command, "--max-range", request.sight.max_range_m, "The camera sees so far, m",
+    declareNumber(command, "--max-range", request.sight.max_range_m, "Range of the camera [m]",
                   positive());
     declareNumber(command, "--max-incidence", request.sight.max_incidence_deg,
-                  "The camera measures up to so many degrees off the surface's normal", positive());
+                  "Maximum angle between viewing direction and surface normal [deg]", positive());
 }
 
 void addMap(CLI::App& app, MapRequest& request) {
@@ -177,39 +182,43 @@ void addMap(CLI::App& app, MapRequest& request) {
     declareSurface(command, "MAP.ply", request);
     auto& options = request.options;
     declareNumber(command, "--complete-within", options.completeness_distance_m,
-                  "A place of the surface with a point of the map nearer is covered, m",
+                  "A part of the surface is covered by a map point nearer than this [m]",
                   positive());
     declareNumber(command, "--beyond", options.beyond_m,
-                  "Tell the share of points farther from the surface than this, m", positive());
+                  "Report the share of points farther than this from the surface [m]", positive());
     command.add_option("--movers", request.movers,
-                       "movers.csv of rgbd-synth: tell the share of them where something moved");
+                       "movers.csv of rgbd-synth: report their share where something moved");
     command.final_callback([&request] { print(runMap(request)); });
 }
 
 void addOctree(CLI::App& app, OctreeRequest& request) {
-    auto& command = *app.add_subcommand("octree", "Surface and free space of an octree");
+    auto& command = *app.add_subcommand("octree", "Accuracy of an octree: surface and free space");
     declareSurface(command, "OCTREE.bt", request);
     declareNumber(command, "--tolerance", request.tolerance_m,
-                  "An occupied voxel so near to the surface is right, m", notNegative());
+                  "An occupied voxel this near to the surface counts as correct [m]",
+                  notNegative());
     command.final_callback([&request] { print(runOctreeEvaluation(request)); });
 }
 
 void addGrid(CLI::App& app, GridRequest& request) {
-    auto& command = *app.add_subcommand("grid", "Occupied cells of a grid that are wrong");
+    auto& command = *app.add_subcommand("grid", "Wrongly occupied cells of a 2-D grid");
     declareAlignedMap(command, "GRID.yaml", request);
     auto& options = request.options;
     declareNumber(command, "--tolerance", options.tolerance_m,
-                  "A cell is right with an obstacle so near, seen from above, m", positive());
+                  "A cell with an obstacle this near, seen from above, counts as correct [m]",
+                  positive());
     declareNumber(command, "--z-min", options.min_z_m,
-                  "Obstacles begin at this height of the surface's frame, m");
-    declareNumber(command, "--z-max", options.max_z_m, "Obstacles end at this height, m");
-    command.add_option("--movers", request.movers,
-                       "movers.csv of rgbd-synth: tell how many of them are where something moved");
+                  "Lower bound of obstacles, in the frame of the surface [m]");
+    declareNumber(command, "--z-max", options.max_z_m, "Upper bound of obstacles [m]");
+    command.add_option(
+        "--movers", request.movers,
+        "movers.csv of rgbd-synth: report how many of them are where something moved");
     command.final_callback([&request] { print(runGrid(request)); });
 }
 
 void addMasks(CLI::App& app, MasksRequest& request) {
-    auto& command = *app.add_subcommand("masks", "Agreement of masks of moving things");
+    auto& command =
+        *app.add_subcommand("masks", "Agreement of masks of moving objects with the truth");
     command.add_option("ESTIMATED_DIR", request.estimated, "Masks, PNG files named by stamp")
         ->required();
     command
@@ -218,17 +227,17 @@ void addMasks(CLI::App& app, MasksRequest& request) {
         ->required();
     auto& options = request.options;
     declareNumber(command, "--min-share", options.min_share,
-                  "Score pictures of which movers take up this share", notNegative());
+                  "Score images in which movers take up at least this share", notNegative());
     declareNumber(command, "--min-speed", options.min_speed_m_s,
-                  "Score pictures whose fastest mover has this speed, m/s", notNegative());
+                  "Score images whose fastest mover has at least this speed [m/s]", notNegative());
     declareNumber(command, "--max-difference", options.max_difference_s,
-                  "Stamps further apart are no pair, s", positive());
+                  "Maximum time difference of a pair [s]", positive());
     declareFormat(command, request.format);
     command.final_callback([&request] { print(runMasks(request)); });
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("Evaluates RGB-D trajectories and maps as the TUM RGB-D benchmark does.",
+    CLI::App app("Evaluates RGB-D trajectories and maps as the TUM RGB-D benchmark does",
                  "rgbd-eval");
     app.require_subcommand(1);
     app.fallthrough();

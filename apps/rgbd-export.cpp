@@ -27,8 +27,7 @@ int main(int argc, char** argv) {
     std::string folder, output;
     std::vector<std::string> formats;
     ExportOptions options;
-    CLI::App app("Writes a finished rgbd-slam run in the formats of other programs.",
-                 "rgbd-export");
+    CLI::App app("Writes a finished rgbd-slam run in the formats of other programs", "rgbd-export");
     app.footer(listOfFormats());
     app.add_option("OUT", folder, "Output folder of rgbd-slam")->required();
     app.add_option("--to", formats, "Format, see below; may be repeated")
@@ -46,8 +45,8 @@ int main(int argc, char** argv) {
     app.add_flag("--vertex-colors", options.vertex_colors,
                  "Meshes with vertex colors instead of a texture (quick)");
     app.add_option("--texture-size", options.texture_size,
-                   "Largest width and height of the texture [pixels]")
-        ->check(CLI::Range(256, 16384))
+                   "Maximum width and height of the texture [px]")
+        ->check(between(256, 16384))
         ->capture_default_str();
     declareCommonOptions(app);
     return runProgram(app, argc, argv, [&] {

@@ -69,12 +69,12 @@ void declareSource(CLI::App& app, Arguments& args) {
     app.add_option("OUT.rawlog", args.rawlog, "Rawlog to write")->required();
     std::vector<std::string> layouts = layoutNames();
     layouts.insert(layouts.begin(), "auto");
-    app.add_option("--layout", args.layout, "Layout of the folder; auto: detected")
+    app.add_option("--layout", args.layout, "Layout of the folder")
         ->check(CLI::IsMember(layouts))
         ->type_name("NAME")
         ->capture_default_str();
     app.add_option("--rate", args.rate_hz,
-                   "Frames per second, for layouts whose images are numbered instead of stamped")
+                   "Frames per second of layouts whose images are numbered, not stamped")
         ->check(positive())
         ->capture_default_str();
 }
@@ -95,9 +95,9 @@ void declareCalibration(CLI::App& app, Arguments& args) {
         ->check(positive());
     app.add_option(
            "--register", args.depth_camera,
-           "Ini file of the camera that took the depth images, when they are not registered "
-           "to color: they are warped to it. sensor_pose in both files tells how the "
-           "cameras lie, depth_units that of the images")
+           "Ini file of the depth camera, when depth is not registered to color: depth is "
+           "warped to the color camera. sensor_pose in both files gives the cameras' poses, "
+           "depth_units the unit of the depth images")
         ->excludes("--depth-units")
         ->excludes("--depth-scale");
     app.add_option("--no-reading", args.import.no_reading,
@@ -109,12 +109,12 @@ void declareCalibration(CLI::App& app, Arguments& args) {
 /** Which images make a frame, and which recordings are refused. */
 void declareFrames(CLI::App& app, Arguments& args) {
     app.add_option("--max-difference", args.import.max_difference_s,
-                   "Maximum time difference between paired color and depth images, s")
+                   "Maximum time difference between paired color and depth images [s]")
         ->check(positive())
         ->capture_default_str();
     app.add_option("--depth-offset", args.import.depth_offset_s,
-                   "Added to the depth images' stamps, s; for depth that comes early or late")
-        ->type_name("S");
+                   "Added to the depth images' stamps, for depth that comes early or late [s]")
+        ->check(finite());
     app.add_option(
            "--mask", args.import.mask_file,
            "Image that is black where every frame is to be ignored, such as the robot's own "
@@ -127,17 +127,17 @@ void declareFrames(CLI::App& app, Arguments& args) {
     app.add_flag("--allow-loss", args.import.allow_loss,
                  "Import even when more than half of the frames are lost");
     app.add_flag("--skip-damaged", args.import.skip_damaged,
-                 "Leave frames with a damaged image out instead of stopping");
+                 "Skip frames with a damaged image instead of stopping");
 }
 
 void declareStorage(CLI::App& app, Arguments& args) {
     app.add_option("--threads", args.import.threads, "Threads that decode images")
-        ->check(CLI::Range(1, 256))
+        ->check(between(1, 256))
         ->capture_default_str();
     app.add_flag("--compact", args.compact,
                  "Keep images lossless in files beside the rawlog: smaller, slower to read");
     app.add_flag("--small", args.small,
-                 "One compressed file, color as JPEG: smallest, slower, color not exact")
+                 "One compressed file, color as JPEG: smallest, slower to read, color not exact")
         ->excludes("--compact");
 }
 
@@ -149,7 +149,7 @@ void declareBag(CLI::App& app, Arguments& args) {
                    "Bags: image topic for depth; default: registered depth, else raw depth")
         ->type_name("TOPIC");
     app.add_flag("--no-camera", args.bag.no_camera,
-                 "Bags: write IMU, odometry, laser scans and GPS alone");
+                 "Bags: import IMU, odometry, laser scans and GPS alone");
 }
 
 void declare(CLI::App& app, Arguments& args) {
@@ -283,14 +283,23 @@ int importBag(const Arguments& args) {
     return 0;
 }
 
+/** \throws Error for the first that is given for something else than a bag */
+void refuseBagOptions(const Arguments& args) {
+    const auto refuse = [&](const std::string& option, bool given) {
+        if (!given) return;
+        throw Error(option + " is for ROS bags, and '" + args.source + "' is not one",
+                    "leave it out");
+    };
+    refuse("--no-camera", args.bag.no_camera);
+    refuse("--color-topic", !args.bag.color_topic.empty());
+    refuse("--depth-topic", !args.bag.depth_topic.empty());
+}
+
 int run(Arguments& args) {
     if (args.compact) args.import.storage = RawlogStorage::Compact;
     if (args.small) args.import.storage = RawlogStorage::Small;
     if (isBag(args.source)) return importBag(args);
-    if (args.bag.no_camera) {
-        throw Error("--no-camera is for ROS bags, and '" + args.source + "' is none",
-                    "leave it away");
-    }
+    refuseBagOptions(args);
     if (isSens(args.source)) return importSens(args);
     if (!isSequenceArchive(args.source)) {
         if (fs::is_regular_file(args.source)) refuseForeignFile(args.source);

@@ -55,8 +55,9 @@ void declare(CLI::App& app, Arguments& args) {
             ->type_name("N");
     auto* const no_maps =
         app.add_flag("--no-maps", args.no_maps, "As --set RunOptions.dense_maps=false");
-    app.add_flag("--view", args.view, "Watch the run in a window; as rgbd-viewer --follow OUT");
-    app.add_flag("--profile", args.profile, "Print the times of all stages");
+    app.add_flag("--view", args.view,
+                 "Watch the run in a window, as rgbd-viewer --follow OUT does");
+    app.add_flag("--profile", args.profile, "Print the CPU time of each stage");
     app.add_flag("--print-config", args.print_config,
                  "Print all settings as a commented ini file and exit");
     auto* const resume =
@@ -144,8 +145,8 @@ int run(const CLI::App& app, const Arguments& args) {
 int main(int argc, char** argv) {
     using namespace rgbd_graphslam;
     CLI::App app(
-        "RGB-D SLAM on an MRPT rawlog: trajectory, pose graph, points, octree, grid. Ends "
-        "with 3 when a limit on keyframes or memory, 130 when Ctrl-C ended it early",
+        "RGB-D SLAM on an MRPT rawlog: trajectory, pose graph, points, octree, grid. Exit codes: 0 "
+        "success, 1 error, 3 stopped by max_keyframes or max_memory_mb, 130 Ctrl-C",
         "rgbd-slam");
     Arguments args;
     declare(app, args);

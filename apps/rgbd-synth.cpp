@@ -1,4 +1,4 @@
-/** rgbd-synth: films synthetic RGB-D sequences with exact truth. */
+/** rgbd-synth: renders synthetic RGB-D sequences with exact ground truth. */
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -43,7 +43,8 @@ void setSize(const std::string& text, synth::FilmOptions& options) {
     char rest = 0;
     if (std::sscanf(text.c_str(), "%dx%d%c", &options.width, &options.height, &rest) != 2 ||
         options.width < 64 || options.height < 48 || options.width > 4096 || options.height > 4096)
-        throw Error("--size " + text + " is no size from 64x48 to 4096x4096", "write e.g. 640x480");
+        throw Error("--size " + text + " is not a size from 64x48 to 4096x4096",
+                    "write e.g. 640x480");
 }
 
 void setBlackouts(const std::vector<double>& from_and_length, synth::FilmOptions& options) {
@@ -64,26 +65,26 @@ void declareSensorErrors(CLI::App& app, synth::FilmOptions& options) {
             ->expected(2)
             ->type_name("FORCE RATE");
     };
-    pair("--imu-walk", "random walk of the IMU's biases, m/s^2 and rad/s per square root of 1 s",
+    pair("--imu-walk", "Random walk of the IMU biases [m/s^2, rad/s per square root of 1 s]",
          imu.force_walk, imu.rate_walk);
-    pair("--imu-warming", "change of the IMU's biases as it warms up from 5 s on, m/s^2 and rad/s",
+    pair("--imu-warming", "Change of the IMU biases as it warms up from 5 s on [m/s^2, rad/s]",
          imu.force_warming, imu.rate_warming);
-    pair("--imu-limit", "the IMU saturates there, m/s^2 and rad/s", imu.largest_force,
+    pair("--imu-limit", "Saturation of the IMU [m/s^2, rad/s]", imu.largest_force,
          imu.largest_rate);
     app.add_option_function<double>(
            "--imu-offset", [&imu](double ms) { imu.time_offset_s = 1e-3 * ms; },
-           "the IMU's stamps are late by this, ms")
+           "Delay of the IMU stamps [ms]")
         ->type_name("MS");
     app.add_option("--wheel-radius-error", options.wheel_radius_error,
-                   "share by which the wheels are larger than their driver knows");
+                   "Relative error of the wheel radius that the odometry assumes");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     CLI::App app(
-        "Films synthetic RGB-D sequences with exact truth, in the layout of the TUM RGB-D "
-        "benchmark.",
+        "Renders synthetic RGB-D sequences with exact ground truth, in the layout of the TUM RGB-D "
+        "benchmark",
         "rgbd-synth");
     synth::FilmOptions options;
     std::string scenario, folder, size = "640x480", noise = "kinect";
@@ -91,40 +92,43 @@ int main(int argc, char** argv) {
     std::vector<double> mount, blackouts;
     double readout_ms = 0;
     bool list_only = false;
-    app.add_option("scenario", scenario, "see --list");
-    app.add_option("out_dir", folder, "new folder for the sequence");
-    app.add_flag("--list", list_only, "describe the scenarios");
-    app.add_option("--frames", options.frames, "the first N frames (default: the whole scenario)")
+    app.add_option("SCENARIO", scenario, "Scenario to render; see --list");
+    app.add_option("DIR", folder, "New folder for the sequence");
+    app.add_flag("--list", list_only, "Describe the scenarios and exit");
+    app.add_option("--frames", options.frames, "Render the first N frames only (default: all)")
         ->check(positive());
-    app.add_option("--every", options.every, "film only every Nth of them: a slower camera")
+    app.add_option("--every", options.every, "Render every Nth frame only: a slower camera")
         ->check(positive());
-    app.add_option("--seed", options.seed, "of textures, trembling and noise")
+    app.add_option("--seed", options.seed, "Seed of textures, camera shake and noise")
         ->capture_default_str();
-    app.add_option("--noise", noise, "sensor model")
+    app.add_option("--noise", noise, "Sensor model")
         ->check(CLI::IsMember({"kinect", "none"}))
         ->capture_default_str();
-    app.add_option("--size", size, "of the pictures; the field of view stays")
+    app.add_option("--size", size, "Image size; the field of view is the same for all")
         ->capture_default_str();
     app.add_option("--registration-error", options.registration_error_px,
-                   "shift of depth against color, pixels");
+                   "Shift of depth relative to color [px]")
+        ->check(finite());
     app.add_option("--readout", readout_ms,
-                   "rolling shutter: time from the first row's reading to the last's, ms")
+                   "Rolling shutter: time between reading the first and the last row [ms]")
         ->check(notNegative())
         ->type_name("MS");
-    app.add_option("--mount", mount,
-                   "film with another camera of the same rig, at this pose on the first: x y z (m) "
-                   "yaw pitch roll (degrees), x forward")
+    app.add_option(
+           "--mount", mount,
+           "Render another camera of the same rig, at this pose relative to the first: x y z "
+           "[m] yaw pitch roll [deg], x forward")
         ->expected(6)
+        ->check(finite())
         ->type_name("X Y Z YAW PITCH ROLL");
     app.add_option("--contact-sheet", sheet,
-                   "PICTURE DIR...: show finished sequences in one picture, film nothing");
-    app.add_option("--session", options.session, "of a scenario with several")
+                   "PICTURE DIR...: show rendered sequences in one picture and exit");
+    app.add_option("--session", options.session, "Session, for scenarios with several")
         ->capture_default_str();
     app.add_flag_callback(
         "--without-movers", [&] { options.movers = false; },
-        "the same film without what deceives the camera: movers, arm, dirt, flare, blackouts");
-    app.add_option("--blackout", blackouts,
-                   "FROM SECONDS...: cover the camera for so long; may be repeated")
+        "Render the same sequence without what deceives the camera: movers, arm, dirt, flare, "
+        "blackouts");
+    app.add_option("--blackout", blackouts, "Cover the camera for this long [s]; may be repeated")
         ->type_name("FROM SECONDS");
     declareSensorErrors(app, options);
     declareExamples(app,
@@ -134,7 +138,8 @@ int main(int argc, char** argv) {
         if (list_only) return list(), 0;
         if (!sheet.empty()) return makeSheet(sheet), 0;
         if (scenario.empty() || folder.empty())
-            throw Error("scenario or folder is missing", "see rgbd-synth --help");
+            throw Error("missing argument " + std::string(scenario.empty() ? "SCENARIO" : "DIR") +
+                        ". Usage: rgbd-synth SCENARIO DIR");
         options.readout_s = 1e-3 * readout_ms;
         options.noise = noise == "kinect";
         std::copy(mount.begin(), mount.end(), options.mount.begin());

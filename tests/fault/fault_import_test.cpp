@@ -95,7 +95,7 @@ TEST_F(FaultImport, filesThatAreNoRecording) {
                   "a.mkv' is a Matroska video");
     folder_.write("a.sens", "short");
     expectRefused(runProgram("rgbd-import", "'" + folder_ / "a.sens" + "' '" + rawlog() + "'"),
-                  "a.sens' is no .sens file");
+                  "a.sens' is not a .sens file");
 }
 
 TEST_F(FaultImport, calibrationsOfOtherPrograms) {
@@ -103,7 +103,7 @@ TEST_F(FaultImport, calibrationsOfOtherPrograms) {
         folder_.write(name, text);
         return import("--camera '" + folder_ / name + "'");
     };
-    expectRefused(with("a.json", "{"), "a.json' is no JSON");
+    expectRefused(with("a.json", "{"), "a.json' is not JSON");
     expectRefused(with("a.yaml", "image_width: 32"), "a.yaml' has no camera");
     const ProgramResult result =
         with("b.json", R"({"fx": 30, "fy": 31, "cx": 15.5, "cy": 11.5, "depth_units": 5000})");
@@ -118,7 +118,7 @@ TEST_F(FaultImport, malformedListLine) {
 
 TEST_F(FaultImport, nanStamp) {
     folder_.write("s/depth.txt", "nan depth/a.png\n");
-    expectRefused(import(), "depth.txt:1: 'nan' is no number");
+    expectRefused(import(), "depth.txt:1: 'nan' is not a number");
 }
 
 TEST_F(FaultImport, malformedTruth) {
@@ -284,7 +284,7 @@ TEST_F(FaultImport, unsortedAndRepeatedStampsAreSortedAndSaid) {
     const ProgramResult result = import();
     EXPECT_EQ(result.exit_code, 0) << result.err;
     EXPECT_THAT(result.out, HasSubstr("4 frames"));
-    EXPECT_THAT(result.out, HasSubstr("1 stamps go back, 1 repeat"));
+    EXPECT_THAT(result.out, HasSubstr("1 with a repeated timestamp); 1 out of order"));
 }
 
 TEST_F(FaultImport, wrongArguments) {

@@ -2,10 +2,10 @@
  *  finished run has it. */
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/mount.h>
 
 #include <chrono>
 
+#include "../support/small_disk.h"
 #include "killed_runs.h"
 
 namespace rgbd_graphslam {
@@ -15,30 +15,6 @@ using ::testing::HasSubstr;
 
 constexpr int kills = 50;
 constexpr double turn_rad = 0.03;
-
-/** A tmpfs, which only root can make. */
-class SmallDisk {
-  public:
-    SmallDisk(const std::string& path, std::size_t bytes) : path_(path) {
-        fs::create_directories(path);
-        const std::string size = "size=" + std::to_string(bytes);
-        mounted_ = mount("tmpfs", path.c_str(), "tmpfs", 0, size.c_str()) == 0;
-    }
-    ~SmallDisk() {
-        if (mounted_) umount2(path_.c_str(), MNT_DETACH);
-    }
-    SmallDisk(const SmallDisk&) = delete;
-    SmallDisk& operator=(const SmallDisk&) = delete;
-
-    bool mounted() const { return mounted_; }
-    bool makeReadOnly() const {
-        return mount("tmpfs", path_.c_str(), "tmpfs", MS_REMOUNT | MS_RDONLY, nullptr) == 0;
-    }
-
-  private:
-    std::string path_;
-    bool mounted_ = false;
-};
 
 /** `out` holds an earlier run's results; `finished` those of the run that the faults meet. */
 class FaultOutputs : public ::testing::Test {

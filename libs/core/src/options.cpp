@@ -14,6 +14,7 @@
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/ini_formulas.h"
+#include "rgbd_graphslam/core/input_file.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -40,7 +41,7 @@ std::string sectionName(const std::string& line) {
 void checkIsText(const std::string& text, const std::string& name) {
     const auto is_foreign = [](unsigned char c) { return c < ' ' && !std::isspace(c); };
     if (std::none_of(text.begin(), text.end(), is_foreign)) return;
-    throw Error("'" + name + "' is no text file", "name an ini file here");
+    throw Error("'" + name + "' is not a text file", "name an ini file here");
 }
 
 /** MRPT's parser skips lines that it does not understand and forgets where a key stood; this pass
@@ -237,6 +238,7 @@ std::string nearest(const std::string& word, const std::vector<std::string>& kno
 }  // namespace
 
 IniFile IniFile::fromFile(const std::string& path) {
+    refuseFolder(path, "an ini file");
     std::ifstream in(path);
     std::ostringstream text;
     text << in.rdbuf();

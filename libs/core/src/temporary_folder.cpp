@@ -1,5 +1,6 @@
 #include "rgbd_graphslam/core/temporary_folder.h"
 
+#include <cerrno>
 #include <filesystem>
 
 #include "rgbd_graphslam/core/atomic_file.h"
@@ -15,8 +16,10 @@ TemporaryFolder::TemporaryFolder(const std::string& final_path)
 }
 
 TemporaryFolder::~TemporaryFolder() {
+    const int reason = errno;  // why what was to be in it could not be written
     std::error_code ignored;
     fs::remove_all(path_, ignored);
+    errno = reason;
 }
 
 void TemporaryFolder::moveToFinalName() const {

@@ -6,12 +6,14 @@
 #include <iterator>
 
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/input_file.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;
 
 std::string calibrationText(const std::string& path) {
     constexpr std::uintmax_t most_bytes = 64 << 20;
+    refuseFolder(path, "a calibration");
     std::ifstream in(path, std::ios::binary);
     std::error_code failure;
     const auto bytes = fs::file_size(path, failure);

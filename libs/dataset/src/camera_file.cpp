@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <sstream>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "number_text.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/ini_formulas.h"
+#include "rgbd_graphslam/core/input_file.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/stereo_sequence.h"
 
@@ -48,20 +48,16 @@ class CameraFile {
   public:
     CameraFile(const std::string& path, std::string section)
         : path_(path), section_(std::move(section)) {
-        std::ifstream in(path);
-        std::stringstream text;
-        if (!in || !(text << in.rdbuf())) {
-            throw Error("cannot read the camera file '" + path + "'",
-                        "give fr1, fr2, fr3, ros or an ini file");
-        }
-        refuseFormulas(text.str(), path);
+        const std::string text =
+            readTextFile(path, "a camera file", "give fr1, fr2, fr3, ros or an ini file");
+        refuseFormulas(text, path);
         try {
-            config_.setContent(text.str());
+            config_.setContent(text);
         } catch (const std::exception& e) {  // MRPT's variables
             refuse(e.what());
         }
         if (!config_.sectionExists(section_)) refuse("has no section [" + section_ + "]");
-        refuseRepeatedKeys(text.str());
+        refuseRepeatedKeys(text);
     }
 
     Intrinsics camera() {
@@ -129,7 +125,7 @@ class CameraFile {
             char* end = nullptr;
             numbers.push_back(std::strtod(word.c_str(), &end));
             if (*end || !std::isfinite(numbers.back()))
-                refuse(key + ": '" + word + "' is no number");
+                refuse(key + ": '" + word + "' is not a number");
         }
         return numbers;
     }

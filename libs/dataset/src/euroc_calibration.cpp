@@ -43,7 +43,7 @@ class SensorNode {
         const Eigen::Matrix3d R = T.topLeftCorner<3, 3>();
         const bool is_rotation =
             (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < 0.01 && R.determinant() > 0;
-        if (!is_rotation) refuse(key + " is no rotation with a translation");
+        if (!is_rotation) refuse(key + " is not a rotation with a translation");
         return {orthonormalized(R), T.topRightCorner<3, 1>()};
     }
 
@@ -51,7 +51,7 @@ class SensorNode {
         constexpr double largest_image_px = 1 << 16;
         const auto size = numbers("resolution", 2), f = numbers("intrinsics", 4);
         for (const double side : size) {
-            if (!(side >= 1 && side <= largest_image_px)) refuse("resolution is no image's size");
+            if (!(side >= 1 && side <= largest_image_px)) refuse("resolution is not an image size");
         }
         if (f[0] <= 0 || f[1] <= 0) refuse("the focal lengths must be positive");
         Intrinsics pinhole;

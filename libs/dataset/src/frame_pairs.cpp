@@ -111,7 +111,7 @@ std::vector<ImagePair> pairUp(const std::string& folder, const ImageStream& firs
 
 std::string tallyText(const std::string& name, const std::string& other, const ImageTally& tally) {
     std::string text = name + ": " + std::to_string(tally.listed) + " listed, " +
-                       std::to_string(tally.leftOver()) + " left over";
+                       std::to_string(tally.leftOver()) + " unpaired";
     std::string reasons;
     const auto reason = [&](std::size_t count, const std::string& why) {
         if (count > 0) reasons += (reasons.empty() ? "" : ", ") + std::to_string(count) + " " + why;
@@ -119,10 +119,10 @@ std::string tallyText(const std::string& name, const std::string& other, const I
     reason(tally.no_partner, "without " + other + " near enough");
     reason(tally.partner_taken, "whose " + other + " went to a nearer one");
     reason(tally.missing, "files missing, the first: '" + tally.first_missing + "'");
-    reason(tally.repeated, "stamps repeated");
+    reason(tally.repeated, "with a repeated timestamp");
     if (!reasons.empty()) text += " (" + reasons + ")";
-    return text + "; " + std::to_string(tally.backwards) + " stamps go back, " +
-           std::to_string(tally.repeated) + " repeat\n";
+    if (tally.backwards > 0) text += "; " + std::to_string(tally.backwards) + " out of order";
+    return text + "\n";
 }
 
 std::vector<FramePair> pairUp(const RgbdSequence& sequence, const ImportOptions& options,

@@ -157,7 +157,7 @@ class Calibration {
     void setDistortion(Intrinsics& camera) const {
         const auto coefficients = numbersOf(node_, distortion_keys);
         for (const double c : coefficients) {
-            if (!std::isfinite(c)) refuse("a distortion coefficient is no number");
+            if (!std::isfinite(c)) refuse("a distortion coefficient is not a number");
         }
         const std::string model = lensModelName();
         const auto lens = lensByRosName(model, coefficients);
@@ -203,7 +203,7 @@ CameraSetup parsed(const std::string& path) {
         tree = parsePlainYaml(calibrationText(path));
     } else {
         tree = Json::parse(calibrationText(path), nullptr, false);
-        if (tree.is_discarded()) throw Error("'" + path + "' is no JSON", "check it");
+        if (tree.is_discarded()) throw Error("'" + path + "' is not JSON", "check it");
     }
     const Json* camera = cameraIn(tree);
     if (!camera) {

@@ -25,7 +25,7 @@ Projection projectionIn(Line& line) {
     double P[12];
     for (double& value : P) value = line.realNumber(form);
     const bool rectified = P[0] > 0 && P[0] == P[5] && P[1] == 0 && P[4] == 0 && P[10] == 1;
-    if (!rectified) line.refuse("this is no projection of a rectified camera", form);
+    if (!rectified) line.refuse("this is not a projection of a rectified camera", form);
     return {P[0], P[2], P[6], -P[3] / P[0]};
 }
 
@@ -125,7 +125,7 @@ Trajectory truthIn(const fs::path& list, const std::vector<double>& times, doubl
         const Eigen::Matrix3d R = T.leftCols<3>();
         const bool is_rotation =
             (R * R.transpose() - Eigen::Matrix3d::Identity()).norm() < 0.01 && R.determinant() > 0;
-        if (!is_rotation) line.refuse("the first three columns are no rotation", form);
+        if (!is_rotation) line.refuse("the first three columns are not a rotation", form);
         const std::size_t i = truth.size();
         if (!times.empty() && i >= times.size()) line.refuse("there is no such image", form);
         const double stamp_s = times.empty() ? static_cast<double>(i) / rate_hz : times[i];

@@ -67,7 +67,7 @@ double Line::realNumber(const std::string& form) {
     std::string word;
     if (!(words >> word)) refuse("too few values", form);
     const auto value = numberIn(word);
-    if (!value) refuse("'" + word + "' is no number", form);
+    if (!value) refuse("'" + word + "' is not a number", form);
     return *value;
 }
 

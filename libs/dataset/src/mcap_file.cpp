@@ -51,7 +51,7 @@ McapFile::McapFile(const std::string& path) : path_(path), in_(path, std::ios::b
     size_ = fs::file_size(path);
     std::string first(magic.size(), '\0');
     if (!in_.read(first.data(), static_cast<std::streamsize>(first.size())) || first != magic) {
-        throw Error("'" + path + "' is no MCAP file", "check the name, or record it again");
+        throw Error("'" + path + "' is not an MCAP file", "check the name, or record it again");
     }
 }
 

@@ -53,13 +53,13 @@ bool readPose(const std::string& path, SE3& T_world_cam) {
         in >> word;
         char* end = nullptr;
         value = std::strtod(word.c_str(), &end);
-        if (word.empty() || *end) throw Error("'" + path + "' is no 4x4 matrix", "fetch it again");
+        if (word.empty() || *end) throw Error("'" + path + "' is not a 4x4 matrix", "fetch it again");
     }
     if (!std::all_of(m, m + 16, [](double value) { return std::isfinite(value); })) return false;
     const Eigen::Matrix3d R =
         (Eigen::Matrix3d() << m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]).finished();
     if ((R * R.transpose() - Eigen::Matrix3d::Identity()).norm() > 0.01 || R.determinant() < 0) {
-        throw Error("'" + path + "' is no pose, its first columns are no rotation",
+        throw Error("'" + path + "' is not a pose, its first columns are not a rotation",
                     "a pose is a 4x4 matrix, camera to world");
     }
     T_world_cam = {orthonormalized(R), {m[3], m[7], m[11]}};

@@ -73,7 +73,7 @@ CameraSetup strayCamera(const std::string& folder, const std::string& first_colo
     forEachLine(path, [&](Line& line) {
         for (int i = 0; i < 3; ++i) K.push_back(line.realNumber(form));
     });
-    if (K.size() != 9) throw Error("'" + path + "' is no 3x3 matrix", "copy the recording again");
+    if (K.size() != 9) throw Error("'" + path + "' is not a 3x3 matrix", "copy the recording again");
     CameraSetup setup = phoneCamera("camera_matrix.csv", first_color_file);
     setIntrinsics(setup.camera, K[0], K[4], K[2], K[5], path);
     return setup;

@@ -6,13 +6,13 @@
 #include <mrpt/serialization/CArchive.h>
 
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 
 #include "gz_size.h"
 #include "number_text.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/temporary_folder.h"
+#include "rgbd_graphslam/dataset/image_output.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
 
@@ -105,7 +105,7 @@ class CompactWriter : public EmbeddedWriter {
         const fs::path target = images_ / (name + (as_it_is ? extension : ".png"));
         std::error_code failure;
         const bool stored = as_it_is ? fs::copy_file(file, target, failure)
-                                     : cv::imwrite(target.string(), image.asCvMatRef());
+                                     : writeImageFile(target.string(), image.asCvMatRef());
         if (!stored) throw WriteFailure();
         image = mrpt::img::CImage();
         image.setExternalStorage(target.filename().string());

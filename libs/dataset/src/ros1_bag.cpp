@@ -35,7 +35,7 @@ Ros1Bag::Ros1Bag(const std::string& path) : path_(path), in_(path, std::ios::bin
     std::string first(format_line.size(), '\0');
     if (!in_.read(first.data(), static_cast<std::streamsize>(first.size())) ||
         first != format_line) {
-        throw Error("'" + path + "' is no ROS 1 bag of format 2.0",
+        throw Error("'" + path + "' is not a ROS 1 bag of format 2.0",
                     "convert older bags with 'rosbag fix'");
     }
 }

@@ -250,7 +250,7 @@ class Import {
 std::string toText(const ImportReport& report) {
     const double span = report.last_stamp_s - report.first_stamp_s;
     char line[256];
-    std::snprintf(line, sizeof(line), "%zu frames over %.2f s, %.1f a second, longest gap %.2f s",
+    std::snprintf(line, sizeof(line), "%zu frames over %.2f s, %.1f per second, longest gap %.2f s",
                   report.frames, span, span > 0 ? (report.frames - 1) / span : 0.0,
                   report.longest_gap_s);
     std::string text;

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <opencv2/imgcodecs.hpp>
 #include <set>
 
 #include "camera_survey.h"
@@ -21,6 +20,7 @@
 #include "rgbd_graphslam/core/temporary_folder.h"
 #include "rgbd_graphslam/dataset/camera_file.h"
 #include "rgbd_graphslam/dataset/depth_stamps.h"
+#include "rgbd_graphslam/dataset/image_output.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
@@ -42,7 +42,7 @@ double unitsAMetre(float metres_a_unit) {
 }
 
 void writePng(const fs::path& path, const cv::Mat& pixels) {
-    if (!cv::imwrite(path.string(), pixels)) {
+    if (!writeImageFile(path.string(), pixels)) {
         throw Error("cannot write '" + path.string() + "'", "check free space");
     }
 }

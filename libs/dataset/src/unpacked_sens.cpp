@@ -9,12 +9,12 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <opencv2/imgcodecs.hpp>
 #include <vector>
 
 #include "number_text.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/progress.h"
+#include "rgbd_graphslam/dataset/image_output.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;
@@ -81,7 +81,7 @@ struct SensHeader {
 };
 
 SensHeader headerOf(SensFile& file) {
-    if (file.next<std::uint32_t>() != known_version) file.refuse("is no .sens file of version 4");
+    if (file.next<std::uint32_t>() != known_version) file.refuse("is not a .sens file of version 4");
     file.nextBytes(file.next<std::uint64_t>(), most_name_bytes);
     SensHeader header;
     for (Matrix* matrix : {&header.color_intrinsic, &header.color_extrinsic,
@@ -219,7 +219,7 @@ class Unpacking {
         writeBytes(folder_ / color, file_.nextBytes(color_bytes, most_image_bytes));
         const cv::Mat readings =
             depthOf(file_, header_, file_.nextBytes(depth_bytes, most_image_bytes));
-        if (!cv::imwrite((folder_ / depth).string(), readings)) {
+        if (!writeImageFile((folder_ / depth).string(), readings)) {
             throw Error("cannot write '" + (folder_ / depth).string() + "'", "check free space");
         }
         sequence_.color.push_back({0, color});

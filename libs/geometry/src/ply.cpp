@@ -9,6 +9,7 @@
 
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/input_file.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -68,6 +69,7 @@ double binaryNumber(std::istream& in, Type type) {
 class PlyReader {
   public:
     explicit PlyReader(const std::string& path) : path_(path), in_(path, std::ios::binary) {
+        refuseFolder(path, "a PLY file");
         if (!in_) throw Error("cannot read '" + path + "'", "check the name");
     }
 
@@ -89,7 +91,7 @@ class PlyReader {
         Header header;
         std::string line;
         std::getline(in_, line);
-        if (line.rfind("ply", 0) != 0) refuse("is no PLY file");
+        if (line.rfind("ply", 0) != 0) refuse("is not a PLY file");
         while (std::getline(in_, line)) {
             std::istringstream words(line);
             std::string key;

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/core/input_file.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -24,7 +25,7 @@ std::vector<double> numbersOf(std::string text, const std::string& path, int lin
     for (std::string word; words >> word;) {
         char* end = nullptr;
         numbers.push_back(std::strtod(word.c_str(), &end));
-        if (*end) refuse(path, line, "'" + word + "' is no number");
+        if (*end) refuse(path, line, "'" + word + "' is not a number");
     }
     return numbers;
 }
@@ -46,6 +47,7 @@ std::optional<SE3> poseAt(const Trajectory& trajectory, double stamp_s, double l
 }
 
 Trajectory readTumPoses(const std::string& path) {
+    refuseFolder(path, "a trajectory");
     std::ifstream in(path);
     if (!in) throw Error("cannot read the trajectory '" + path + "'", "check the name");
     Trajectory trajectory;

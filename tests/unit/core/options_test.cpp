@@ -59,7 +59,7 @@ TEST(IniFile, overridesAreNotEvaluated) {
 
 TEST(IniFile, bytesOfOtherFilesAreNotQuoted) {
     EXPECT_EQ(problemOf(std::string("\x1f\x8b\x08\0rest", 8)),
-              "'a.ini' is no text file; name an ini file here");
+              "'a.ini' is not a text file; name an ini file here");
     EXPECT_EQ(problemOf("[SampleOptions]\r\n\tsize_m = 0.5\r\n"), "");
 }
 

@@ -167,7 +167,7 @@ TEST(CameraFile, mistakesAreNamed) {
     EXPECT_THAT(complaintAbout(minimal + "focal = 3\n"), HasSubstr("unknown key 'focal'"));
     EXPECT_THAT(complaintAbout("[CAMERA_PARAMS]\nfx = 525\n"), HasSubstr("'fy' is missing"));
     EXPECT_THAT(complaintAbout(minimal + "dist = [0.1 zero 0 0 0]\n"),
-                HasSubstr("'zero' is no number"));
+                HasSubstr("'zero' is not a number"));
     EXPECT_THAT(complaintAbout(minimal + "dist = [0.1 0]\n"), HasSubstr("dist must be"));
     EXPECT_THAT(complaintAbout(minimal + "distortion_model = kannala_brandt\ndist = [1 1]\n"),
                 HasSubstr("dist must be [k1 k2 k3 k4]"));

@@ -215,7 +215,7 @@ TEST_F(Phone, strayScannersVideoAndDamage) {
     EXPECT_THAT(problemOf([&] { read(SequenceLayout::StrayScanner); }), HasSubstr("no 3x3 matrix"));
     folder_.write("s/odometry.csv", "timestamp, frame\n1.0, x\n");
     EXPECT_THAT(problemOf([&] { read(SequenceLayout::StrayScanner); }),
-                HasSubstr("odometry.csv:2: 'x' is no number"));
+                HasSubstr("odometry.csv:2: 'x' is not a number"));
     fs::remove_all(folder_ / "s/rgb");
     EXPECT_THAT(problemOf([&] { read(SequenceLayout::StrayScanner); }),
                 HasSubstr("ffmpeg -i rgb.mp4"));

@@ -155,7 +155,7 @@ TEST_F(IntrinsicsFile, fisheyeAndRationalLenses) {
 
 TEST_F(IntrinsicsFile, whatCannotBeUsedIsNamed) {
     EXPECT_THAT(problemOf([] { readCalibration("/nowhere/a.json"); }), HasSubstr("cannot read"));
-    EXPECT_THAT(problem("a.json", "{\"fx\": "), HasSubstr("a.json' is no JSON"));
+    EXPECT_THAT(problem("a.json", "{\"fx\": "), HasSubstr("a.json' is not JSON"));
     EXPECT_THAT(problem("a.json", "{\"fy\": 3}"), HasSubstr("has no camera"));
     EXPECT_THAT(problem("a.json", "{\"fx\": 600, \"fy\": 600}"), HasSubstr("no usable fx"));
     EXPECT_THAT(problem("a.json", R"({"w": 1e9, "h": 1, "fx": 6, "fy": 6, "cx": 1, "cy": 1})"),

@@ -233,9 +233,9 @@ TEST_F(Layout, mistakesAreNamed) {
     fs::remove(folder_ / "s/associations.txt");
     writeText("frame-000000.depth.png", "");
     writeText("frame-000000.pose.txt", "1 0 0 0\n");
-    EXPECT_THAT(read(SequenceLayout::SevenScenes), HasSubstr("is no 4x4 matrix"));
+    EXPECT_THAT(read(SequenceLayout::SevenScenes), HasSubstr("is not a 4x4 matrix"));
     writeText("frame-000000.pose.txt", "2 0 0 0\n0 2 0 0\n0 0 2 0\n0 0 0 1\n");
-    EXPECT_THAT(read(SequenceLayout::SevenScenes), HasSubstr("is no pose"));
+    EXPECT_THAT(read(SequenceLayout::SevenScenes), HasSubstr("is not a pose"));
     fs::remove_all(folder_ / "s");
     writeText("color/a.png", "");
     writeText("depth/a.png", "");

@@ -75,9 +75,9 @@ TEST(TumSequence, mistakesAreNamedWithFileAndLine) {
     folder.write("s/rgb.txt", "# only comments\n");
     EXPECT_THAT(complaintAbout(folder), HasSubstr("lists no image"));
     folder.write("s/rgb.txt", "1 a.png\nb.png 2\n");
-    EXPECT_THAT(complaintAbout(folder), HasSubstr("rgb.txt:2: 'b.png' is no number"));
+    EXPECT_THAT(complaintAbout(folder), HasSubstr("rgb.txt:2: 'b.png' is not a number"));
     folder.write("s/rgb.txt", "nan a.png\n");
-    EXPECT_THAT(complaintAbout(folder), HasSubstr("rgb.txt:1: 'nan' is no number"));
+    EXPECT_THAT(complaintAbout(folder), HasSubstr("rgb.txt:1: 'nan' is not a number"));
     folder.write("s/rgb.txt", "1\n");
     EXPECT_THAT(complaintAbout(folder), HasSubstr("rgb.txt:1: no file name"));
     folder.write("s/rgb.txt", "1 a.png\n");

@@ -441,7 +441,7 @@ TEST_F(Bag, anImageThatLacksPixelsIsRefused) {
 
 TEST_F(Bag, damageIsSaidAndNothingLeftBehind) {
     folder_.write("rgbd.bag", "no bag");
-    EXPECT_THAT(complaint(), HasSubstr("is no ROS 1 bag of format 2.0"));
+    EXPECT_THAT(complaint(), HasSubstr("is not a ROS 1 bag of format 2.0"));
     makeSequence();
     for (const char* compression : {"none", "bz2"}) {
         for (const double share : {0.3, 0.6, 0.9}) {
@@ -459,7 +459,7 @@ TEST_F(Bag, damageToRos2FilesIsSaid) {
     if (!canWriteRos2Bags()) GTEST_SKIP() << ros2_needs;
     makeSequence();
     folder_.write("a.mcap", "no bag");
-    EXPECT_THAT(complaint(folder_ / "a.mcap"), HasSubstr("is no MCAP file"));
+    EXPECT_THAT(complaint(folder_ / "a.mcap"), HasSubstr("is not an MCAP file"));
     folder_.write("a.db3", "no bag");
     EXPECT_THAT(complaint(folder_ / "a.db3"), HasSubstr("is damaged or no ROS 2 bag"));
     // A view may go on for ever.
