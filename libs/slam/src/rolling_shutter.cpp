@@ -15,6 +15,9 @@ constexpr int fewest_keyframes = 10;
 constexpr int most_iterations = 100, stretches = 10;
 constexpr double converged = 1e-7;
 constexpr double shortest_readout_s = 0.005, clear_sigmas = 4;
+/** Video cameras read an image in less than the period of 15 Hz. An estimate beyond it, as seen at
+ * low resolution and 10 Hz, has another cause. */
+constexpr double longest_readout_s = 1.0 / 15;
 
 using Vectors = std::vector<Eigen::Vector2d>;
 
@@ -240,7 +243,8 @@ std::optional<ReadoutTime> estimateReadoutTime(const MapSnapshot& map, const Tra
 
 bool isRollingShutter(const ReadoutTime& readout) {
     const double seconds = std::abs(readout.seconds);
-    return seconds > shortest_readout_s && seconds > clear_sigmas * readout.sigma_s;
+    return seconds > shortest_readout_s && seconds < longest_readout_s &&
+           seconds > clear_sigmas * readout.sigma_s;
 }
 
 }  // namespace rgbd_graphslam

@@ -72,6 +72,13 @@ TEST(RollingShutter, noiseOfAGlobalShutterIsNoAlarm) {
     }
 }
 
+TEST(RollingShutter, whatNoCameraTakesIsNoAlarm) {
+    EXPECT_TRUE(isRollingShutter({0.033, 0.002, 5000}));
+    EXPECT_TRUE(isRollingShutter({-0.033, 0.002, 5000}));
+    EXPECT_FALSE(isRollingShutter({0.169, 0.024, 5000})) << "of a film without one";
+    EXPECT_FALSE(isRollingShutter({-0.169, 0.024, 5000}));
+}
+
 TEST(RollingShutter, aCameraAtRestTellsNothing) {
     auto observations = filmed(0.03, 0.5, 1);
     for (RowObservation& o : observations) o.velocity_px_s.setZero();

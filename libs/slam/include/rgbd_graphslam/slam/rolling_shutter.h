@@ -45,7 +45,7 @@ std::optional<ReadoutTime> estimateReadoutTime(const std::vector<RowObservation>
 /** The same of a finished map. \param frames poses of all frames, in the map's world */
 std::optional<ReadoutTime> estimateReadoutTime(const MapSnapshot& map, const Trajectory& frames);
 
-/** Whether an estimate is beyond doubt, and long enough to matter. */
+/** Whether an estimate is beyond doubt, long enough to matter and a time that cameras take. */
 bool isRollingShutter(const ReadoutTime& readout);
 
 }  // namespace rgbd_graphslam
