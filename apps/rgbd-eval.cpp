@@ -21,7 +21,7 @@ void declareFormat(CLI::App& command, ReportFormat& format) {
                   "Output format");
 }
 
-void declareTrajectories(CLI::App& command, TrajectoryRequest& request, EstimateOptions& options) {
+void declareEstimates(CLI::App& command, TrajectoryRequest& request, EstimateOptions& options) {
     command
         .add_option("EST... TRUTH", request.files,
                     "Estimated trajectories, then the ground truth: TUM text files; the truth may "
@@ -29,14 +29,18 @@ void declareTrajectories(CLI::App& command, TrajectoryRequest& request, Estimate
         ->required()
         ->expected(2, CLI::detail::expected_max_vector_size);
     declareFormat(command, request.format);
+    declareNumber(command, "--offset", options.offset_s, "Added to the stamps of the estimate [s]");
+    declareNumber(command, "--scale", options.scale, "Factor on the positions of the estimate",
+                  positive());
+}
+
+void declareTrajectories(CLI::App& command, TrajectoryRequest& request, EstimateOptions& options) {
+    declareEstimates(command, request, options);
     command.add_flag("--per-axis", request.per_axis, "Also report the errors along x, y and z");
     command.add_option("--plot-errors", request.errors_plot,
                        "Plot the errors over time to this .png or .svg");
     command.add_option("--plot-distribution", request.distribution_plot,
                        "Plot the distribution of the errors to this .png or .svg");
-    declareNumber(command, "--offset", options.offset_s, "Added to the stamps of the estimate [s]");
-    declareNumber(command, "--scale", options.scale, "Factor on the positions of the estimate",
-                  positive());
 }
 
 void addAte(CLI::App& app, AteRequest& request) {
@@ -74,6 +78,23 @@ void addRpe(CLI::App& app, RpeRequest& request) {
                   "Maximum number of pairs, drawn at random; 0: all", notNegative());
     declareNumber(command, "--seed", options.seed, "Seed of the random draw", notNegative());
     command.final_callback([&request] { print(runRpe(request)); });
+}
+
+void addDrift(CLI::App& app, DriftRequest& request) {
+    auto& command = *app.add_subcommand(
+        "drift", "Error per length of the way, as the KITTI odometry benchmark has it");
+    declareEstimates(command, request, request.options);
+    auto& options = request.options;
+    declareNumber(command, "--max-difference", options.max_difference_s,
+                  "Stamps further apart are no pair, s", positive());
+    command.add_flag("--fit-scale", options.fit_scale, "Use the scale that fits best")
+        ->excludes("--scale");
+    command
+        .add_option("--lengths", options.lengths_m,
+                    "Of the stretches that are compared, m; default: 100 to 800, or one to eight "
+                    "ninths of a way shorter than 200 m")
+        ->check(positive());
+    command.final_callback([&request] { print(runDrift(request)); });
 }
 
 void addConsistency(CLI::App& app, ConsistencyRequest& request) {
@@ -243,6 +264,7 @@ int run(int argc, char** argv) {
     app.fallthrough();
     AteRequest ate;
     RpeRequest rpe;
+    DriftRequest drift;
     ConsistencyRequest consistency;
     AssociateRequest association;
     PointCloudRequest cloud;
@@ -250,6 +272,7 @@ int run(int argc, char** argv) {
     MapRequest map;
     addAte(app, ate);
     addRpe(app, rpe);
+    addDrift(app, drift);
     addConsistency(app, consistency);
     addAssociate(app, association);
     addPointCloud(app, cloud, cloud_files);
@@ -262,7 +285,8 @@ int run(int argc, char** argv) {
     addMasks(app, masks);
     declareExamples(app,
                     {"rgbd-eval ate out/trajectory.txt office.rawlog --plot ate.png",
-                     "rgbd-eval rpe out/trajectory.txt groundtruth.txt --fixed-delta --delta 1"});
+                     "rgbd-eval rpe out/trajectory.txt groundtruth.txt --fixed-delta --delta 1",
+                     "rgbd-eval drift out/trajectory.txt drive.rawlog"});
     declareCommonOptions(app);
     return runProgram(app, argc, argv);
 }

@@ -134,6 +134,16 @@ std::string runRpe(const RpeRequest& request) {
     return tableOf(evaluated, request);
 }
 
+std::string runDrift(const DriftRequest& request) {
+    const auto truth = truthOf(request);
+    return format(evaluateAll(request,
+                              [&](const std::string& label, const Trajectory& estimate) {
+                                  return reportOf(label,
+                                                  evaluateDrift(estimate, truth, request.options));
+                              }),
+                  request.format);
+}
+
 std::string runConsistency(const ConsistencyRequest& request) {
     const auto claims = readClaimedPoses(request.run_folder);
     const auto truth = readTrajectory(request.truth);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "rgbd_graphslam/core/formatted.h"
 #include "tables.h"
 
 namespace rgbd_graphslam {
@@ -71,6 +72,23 @@ Report reportOf(const std::string& estimate, const RpeResult& result, PerAxis pe
                 return error.rotation_rad * degrees_per_radian;
             },
             report.figures);
+    }
+    return report;
+}
+
+Report reportOf(const std::string& estimate, const DriftResult& result) {
+    Report report{estimate, {}};
+    addCounts(result.errors.size(), result.matched_poses, result.estimate_poses, report.figures);
+    addStatistics("translational_drift", "%", result.translation_percent, report.figures);
+    addStatistics("rotational_drift", "deg/m", result.rotation_deg_m, report.figures);
+    report.figures.push_back({"scale", result.scale, ""});
+    for (const double length_m : result.lengths_m) {
+        std::vector<double> translation;
+        for (const DriftError& error : result.errors) {
+            if (error.length_m == length_m) translation.push_back(error.translation_percent);
+        }
+        report.figures.push_back({formatted("translational_drift.%.4g_m.mean", length_m),
+                                  statisticsOf(translation).mean, "%"});
     }
     return report;
 }

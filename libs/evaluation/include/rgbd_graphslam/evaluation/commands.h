@@ -40,6 +40,12 @@ struct RpeRequest : TrajectoryRequest {
 };
 std::string runRpe(const RpeRequest& request);
 
+/** Arguments of `rgbd-eval drift`; it has no plots and no errors along axes. */
+struct DriftRequest : TrajectoryRequest {
+    DriftOptions options;
+};
+std::string runDrift(const DriftRequest& request);
+
 /** Arguments of `rgbd-eval consistency`. */
 struct ConsistencyRequest {
     std::string run_folder, truth;  // the truth: TUM text file or .rawlog

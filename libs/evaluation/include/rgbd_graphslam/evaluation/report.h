@@ -5,6 +5,7 @@
 
 #include "rgbd_graphslam/evaluation/map_accuracy.h"
 #include "rgbd_graphslam/metrics/ate.h"
+#include "rgbd_graphslam/metrics/drift.h"
 #include "rgbd_graphslam/metrics/rpe.h"
 
 namespace rgbd_graphslam {
@@ -33,6 +34,9 @@ Report reportOf(const std::string& estimate, const AteResult& result, PerAxis pe
 /** Counts, figures of the translational and rotational error; with PerAxis::Yes those of the
  *  absolute components in the frame of the first pose of each pair too. */
 Report reportOf(const std::string& estimate, const RpeResult& result, PerAxis per_axis);
+
+/** Counts, mean and further figures of the errors per length, for all lengths and for each. */
+Report reportOf(const std::string& estimate, const DriftResult& result);
 
 /** Distance of the map's points and completeness. */
 Report reportOf(const std::string& map, const MapAccuracy& accuracy);
