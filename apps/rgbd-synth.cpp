@@ -106,6 +106,13 @@ int main(int argc, char** argv) {
         ->capture_default_str();
     app.add_option("--size", size, "Image size; the field of view is the same for all")
         ->capture_default_str();
+    declareChoice(app, "--camera", options.camera,
+                  {{"rgbd", synth::FilmCamera::Rgbd},
+                   {"rational", synth::FilmCamera::Rational},
+                   {"fisheye", synth::FilmCamera::Fisheye},
+                   {"stereo", synth::FilmCamera::Stereo}},
+                  "pinhole with depth, the same with a lens of this model, or two pinholes");
+    declareNumber(app, "--baseline", options.baseline_m, "of the stereo camera, m", positive());
     app.add_option("--registration-error", options.registration_error_px,
                    "Shift of depth relative to color [px]")
         ->check(finite());

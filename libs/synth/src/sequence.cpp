@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "background_jobs.h"
+#include "lens_warp.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/progress.h"
@@ -17,7 +18,7 @@
 namespace rgbd_graphslam::synth {
 
 namespace {
-enum Purpose : std::uint64_t { kColorNoise = 10, kDepthNoise = 11, kStampJitter = 12 };
+enum Purpose : std::uint64_t { kColorNoise = 10, kDepthNoise = 11, kStampJitter = 12, kRightNoise = 13 };
 
 double toMicroseconds(double stamp_s) {
     return std::round(stamp_s * 1e6) / 1e6;
@@ -42,13 +43,21 @@ class Film {
         : world_(world),
           options_(options),
           folder_(folder),
-          camera_(synthCamera(options.width, options.height)),
-          renderer_(scene, camera_) {}
+          camera_(synthCamera(options.width, options.height, options.camera)),
+          warp_(camera_),
+          renderer_(scene, warp_.pinhole()) {}
 
     void shoot(int frame) {
-        shootColor(frame, colorStamp(options_, frame));
-        shootDepth(frame, depthStamp(options_, frame));
-        shootLabels(colorStamp(options_, frame));
+        const double stamp = colorStamp(options_, frame);
+        if (options_.camera == FilmCamera::Stereo) {
+            shootColor(frame, stamp, "left", {}, kColorNoise);
+            shootColor(frame, stamp, "right",
+                       {Eigen::Matrix3d::Identity(), {options_.baseline_m, 0, 0}}, kRightNoise);
+        } else {
+            shootColor(frame, stamp, "rgb", {}, kColorNoise);
+            shootDepth(frame, depthStamp(options_, frame));
+        }
+        shootLabels(stamp);
     }
     void finish() { jobs_.finish(); }
 
@@ -69,21 +78,25 @@ class Film {
 
     /** Mean of pictures over the shutter time, each shifted by another part of a pixel: motion
      *  blur and anti-aliasing in one. \return CV_32FC3 */
-    cv::Mat exposed(double t, double shutter_s) {
+    cv::Mat exposed(double t, double shutter_s, const SE3& T_first_cam) {
         const double begin = t - shutter_s / 2;
         const int count = std::min(
             16, std::max(4, static_cast<int>(std::ceil(blur_px(begin, begin + shutter_s)))));
-        cv::Mat sum = cv::Mat::zeros(camera_.height, camera_.width, CV_32FC3);
+        const Camera& pinhole = warp_.pinhole();
+        cv::Mat sum = cv::Mat::zeros(pinhole.height, pinhole.width, CV_32FC3);
         for (int i = 0; i < count; ++i) {
             const double at = begin + shutter_s * (i + 0.5) / count;
             placeMovers(at, Mover::SeenBy::Color);
             // A rank-1 lattice spreads the shifts evenly over the pixel.
             const Eigen::Vector2d shift((i + 0.5) / count - 0.5,
                                         std::fmod(0.618034 * (i + 0.5), 1.0) - 0.5);
-            cv::accumulate(renderer_.color(world_.motion.T_world_cam(at), shift), sum);
+            cv::accumulate(renderer_.color(world_.motion.T_world_cam(at) * T_first_cam, shift),
+                           sum);
         }
-        cv::Mat picture = sum * (1.0 / count);
-        if (world_.lens) world_.lens->spoil(picture, world_.motion.T_world_cam(t), camera_);
+        cv::Mat picture = warp_.smooth(sum * (1.0 / count));
+        if (world_.lens) {
+            world_.lens->spoil(picture, world_.motion.T_world_cam(t) * T_first_cam, camera_);
+        }
         return picture;
     }
 
@@ -104,20 +117,23 @@ class Film {
         return picture;
     }
 
-    void shootColor(int frame, double stamp) {
+    /** \param folder of the picture \param T_first_cam the camera on the first one */
+    void shootColor(int frame, double stamp, const char* folder, const SE3& T_first_cam,
+                    Purpose purpose) {
         const double t = stamp - kFirstStamp_s;
         const Exposure exposure = world_.exposure(t);
         cv::Mat seen;
         if (isCovered(world_, t))
             seen = cv::Mat(camera_.height, camera_.width, CV_32FC3, cv::Scalar(4, 3, 5));
         else
-            seen = rolled(
-                t, [&](double at) { return exposed(at, options_.noise ? exposure.shutter_s : 0); });
-        jobs_.add([=, options = options_, path = folder_ + "/" + pictureName("rgb", stamp)] {
+            seen = rolled(t, [&](double at) {
+                return exposed(at, options_.noise ? exposure.shutter_s : 0, T_first_cam);
+            });
+        jobs_.add([=, options = options_, path = folder_ + "/" + pictureName(folder, stamp)] {
             const ColorSensorModel model =
                 options.noise ? ColorSensorModel{} : ColorSensorModel{0, 0};
             writePicture(path, senseColor(seen, exposure.brightness, exposure.gain, model,
-                                          Random::of(options.seed, kColorNoise, frame)));
+                                          Random::of(options.seed, purpose, frame)));
         });
     }
 
@@ -129,8 +145,8 @@ class Film {
         else
             seen = rolled(t, [&](double at) {
                 placeMovers(at, Mover::SeenBy::Depth);
-                return renderer_.depth(world_.motion.T_world_cam(at),
-                                       {options_.registration_error_px, 0});
+                return warp_.depth(renderer_.depth(world_.motion.T_world_cam(at),
+                                                   {options_.registration_error_px, 0}));
             });
         jobs_.add([=, options = options_, camera = camera_,
                    path = folder_ + "/" + pictureName("depth", stamp)] {
@@ -146,6 +162,7 @@ class Film {
         const SE3 T_world_cam = world_.motion.T_world_cam(t);
         placeMovers(t, Mover::SeenBy::Depth);
         LabelPicture picture = renderer_.labels(T_world_cam);
+        for (cv::Mat* each : {&picture.label, &picture.mask}) *each = warp_.nearest(*each);
         if (world_.lens) world_.lens->mark(picture.mask, T_world_cam, camera_);
         cv::Mat both;
         cv::merge(std::vector<cv::Mat>{picture.label, picture.mask}, both);
@@ -169,6 +186,7 @@ class Film {
     const FilmOptions options_;
     const std::string folder_;
     const Camera camera_;
+    const LensWarp warp_;
     Renderer renderer_;
     BackgroundJobs jobs_;
 };
@@ -224,6 +242,11 @@ World worldOf(const Scenario& scenario, const FilmOptions& options) {
     return options.movers ? world : withoutMovers(world);
 }
 
+std::vector<const char*> folders(const FilmOptions& options) {
+    if (options.camera == FilmCamera::Stereo) return {"left", "right", "label", "movers"};
+    return {"rgb", "depth", "label", "movers"};
+}
+
 void makeEmptyFolder(const std::string& folder) {
     makeWritableFolder(folder);
     if (!std::filesystem::is_empty(folder))
@@ -231,7 +254,7 @@ void makeEmptyFolder(const std::string& folder) {
 }
 }  // namespace
 
-Camera synthCamera(int width, int height) {
+Camera synthCamera(int width, int height, FilmCamera kind) {
     Intrinsics camera;
     const double scale = width / 640.0;
     camera.width = width;
@@ -239,6 +262,12 @@ Camera synthCamera(int width, int height) {
     camera.fx = camera.fy = 525 * scale;
     camera.cx = (width - 1) / 2.0;
     camera.cy = (height - 1) / 2.0;
+    if (kind == FilmCamera::Rational) {
+        camera.lens = BrownLens{{0.43, -2.6, 0.0006, -0.0002, 1.5, 0.31, -2.4, 1.43}};
+    } else if (kind == FilmCamera::Fisheye) {
+        camera.fx = camera.fy = 400 * scale;
+        camera.lens = KannalaBrandtLens{{-0.012, 0.004, -0.002, 0.0003}};
+    }
     return camera;
 }
 
@@ -276,14 +305,11 @@ FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std
             "it has " + std::to_string(scenario.sessions));
     const int frames = options.frames > 0 ? options.frames : scenario.frames;
     makeEmptyFolder(folder);
-    for (const char* kind : {"rgb", "depth", "label", "movers"})
-        makeWritableFolder(folder + "/" + kind);
+    for (const char* kind : folders(options)) makeWritableFolder(folder + "/" + kind);
     const World world = worldOf(scenario, options);
     const Scene scene = world.scene();
     writeSurface(folder + "/surface.ply", scene);
-    const Camera camera = synthCamera(options.width, options.height);
-    writeCameraIni(folder, camera.intrinsics(), static_cast<bool>(world.motion.T_world_base),
-                   options.mount);
+    writeCameraIni(folder, options, static_cast<bool>(world.motion.T_world_base));
     writeMotionFiles(folder, options.seed, world, frames);
     writeLabelsIni(folder + "/labels.ini");
     writeMovers(folder + "/movers.csv", options, world.movers, scene.figures, frames);

@@ -108,6 +108,19 @@ std::string moverLine(double stamp_s, const Mover& mover, const Eigen::AlignedBo
                      size.y(), size.z());
 }
 
+std::string cameraText(const char* section, const Intrinsics& camera) {
+    std::string text = formatted(
+        "[%s]\n"
+        "resolution = [%d %d]\n"
+        "cx = %.6f\ncy = %.6f\nfx = %.6f\nfy = %.6f\n",
+        section, camera.width, camera.height, camera.cx, camera.cy, camera.fx, camera.fy);
+    if (lensModel(camera.lens) == "kannala_brandt") text += "distortion_model = kannala_brandt\n";
+    text += "dist = [";
+    for (const double k : lensCoefficients(camera.lens)) text += formatted("%g ", k);
+    text.back() = ']';
+    return text + "\n";
+}
+
 template <class Value>
 void put(std::ostream& out, Value value) {
     out.write(reinterpret_cast<const char*>(&value), sizeof value);
@@ -119,8 +132,14 @@ std::string pictureName(const char* kind, double stamp_s) {
 }
 
 void writePictureLists(const std::string& folder, const FilmOptions& options, int frames) {
-    writeList(folder + "/rgb.txt", "color images", "rgb", frames, options.every,
-              [&](int i) { return colorStamp(options, i); });
+    const auto color = [&](int i) { return colorStamp(options, i); };
+    if (options.camera == FilmCamera::Stereo) {
+        for (const char* side : {"left", "right"}) {
+            writeList(folder + "/" + side + ".txt", "images", side, frames, options.every, color);
+        }
+        return;
+    }
+    writeList(folder + "/rgb.txt", "color images", "rgb", frames, options.every, color);
     writeList(folder + "/depth.txt", "depth maps", "depth", frames, options.every,
               [&](int i) { return depthStamp(options, i); });
 }
@@ -142,19 +161,21 @@ void writeMotionFiles(const std::string& folder, std::uint64_t seed, const World
     if (!world.slips.empty()) writeSlips(folder + "/slips.csv", world.slips);
 }
 
-void writeCameraIni(const std::string& folder, const Intrinsics& camera, bool on_robot,
-                    const std::array<double, 6>& mount) {
-    std::string text = formatted(
-        "[CAMERA_PARAMS]\n"
-        "resolution = [%d %d]\n"
-        "cx = %.6f\ncy = %.6f\nfx = %.6f\nfy = %.6f\n"
-        "dist = [0 0 0 0 0]\n"
-        "depth_units = 5000\n",
-        camera.width, camera.height, camera.cx, camera.cy, camera.fx, camera.fy);
+void writeCameraIni(const std::string& folder, const FilmOptions& options, bool on_robot) {
+    const bool stereo = options.camera == FilmCamera::Stereo;
+    const Intrinsics camera =
+        synthCamera(options.width, options.height, options.camera).intrinsics();
+    const auto& mount = options.mount;
+    std::string text = cameraText("CAMERA_PARAMS", camera);
+    if (!stereo) text += "depth_units = 5000\n";
     const Eigen::Vector3d at = on_robot ? robotCamera().t : Eigen::Vector3d::Zero();
     text += formatted("sensor_pose = [%.3f %.3f %.3f %g %g %g]\n", at.x() + mount[0],
                       at.y() + mount[1], at.z() + mount[2], mount[3], mount[4], mount[5]);
     text += "imu_pose = [0 0 0 -90 0 -90]\n";  // the optical frame
+    if (stereo) {
+        text += cameraText("CAMERA_PARAMS_RIGHT", camera) +
+                formatted("[STEREO]\nbaseline = %.6f\n", options.baseline_m);
+    }
     writeTextAtomically(folder + "/camera.ini", text);
 }
 

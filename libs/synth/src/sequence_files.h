@@ -17,9 +17,8 @@ void writePictureLists(const std::string& folder, const FilmOptions& options, in
  *  the wheels slip. */
 void writeMotionFiles(const std::string& folder, std::uint64_t seed, const World& world,
                       int frames);
-/** \param mount as FilmOptions::mount */
-void writeCameraIni(const std::string& folder, const Intrinsics& camera, bool on_robot,
-                    const std::array<double, 6>& mount);
+/** Of both cameras of a stereo camera. */
+void writeCameraIni(const std::string& folder, const FilmOptions& options, bool on_robot);
 /** Names and colors of the values of label pictures. */
 void writeLabelsIni(const std::string& path);
 /** Boxes of the movers at the stamps of color pictures.

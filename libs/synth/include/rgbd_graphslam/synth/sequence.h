@@ -10,6 +10,10 @@
 
 namespace rgbd_graphslam::synth {
 
+/** Cameras of films: a pinhole with depth, the same with a lens of a model, or two pinholes side by
+ *  side without depth. */
+enum class FilmCamera { Rgbd, Rational, Fisheye, Stereo };
+
 /** What to film, and with which camera. */
 struct FilmOptions {
     int frames = 0;  // 0: the scenario's own number
@@ -17,6 +21,9 @@ struct FilmOptions {
     /** false: exact depth, no color noise, no blur, color and depth at the same instants. */
     bool noise = true;
     int width = 640, height = 480;
+    FilmCamera camera = FilmCamera::Rgbd;
+    /** Of a stereo camera, m. */
+    double baseline_m = 0.12;
     /** Depth pictures are shifted by this along x, as by a wrong calibration. */
     double registration_error_px = 0;
     /** Rolling shutter: from the reading of the first row to that of the last, the middle row at
@@ -38,8 +45,10 @@ struct FilmOptions {
     double wheel_radius_error = 0;
 };
 
-/** The camera of a sequence: 525 pixels of focal length at 640 x 480, scaled to other widths. */
-Camera synthCamera(int width, int height);
+/** The camera of a sequence: 525 pixels of focal length at 640 x 480, scaled to other widths; with
+ *  eight coefficients of a color camera on the market (rational), or 400 pixels a radian and 115
+ *  degrees across the diagonal (fisheye). */
+Camera synthCamera(int width, int height, FilmCamera kind = FilmCamera::Rgbd);
 
 /** Times of frame i in a sequence of 30 Hz, seconds; they begin at 1000 s, to the microsecond.
  *  Depth lags or leads by up to 16 ms when there is noise. */
@@ -58,7 +67,8 @@ struct FilmSummary {
 /** Known without filming. */
 FilmSummary summary(const World& world, int frames);
 
-/** Renders all frames and writes rgb/, depth/, rgb.txt, depth.txt, groundtruth.txt,
+/** Renders all frames and writes rgb/, depth/, rgb.txt, depth.txt (of a stereo camera left/, right/,
+ *  left.txt, right.txt), groundtruth.txt,
  *  accelerometer.txt, gyroscope.txt, odometry.txt (planar robots only), slips.csv (where wheels
  *  slip for a while), camera.ini, surface.ply, and what is known of each color picture under its
  *  name: movers/ (255 where it shows what moves by itself or belongs to lens or carrier) and label/
