@@ -9,6 +9,7 @@
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/dataset/stereo_frame.h"
 
 namespace rgbd_graphslam {
 using mrpt::obs::CObservation;
@@ -62,8 +63,7 @@ Trajectory truthOf(const std::string& rawlog_path) {
                 dynamic_cast<const mrpt::obs::CObservationRobotPose*>(observation.get())) {
             if (pose->sensorLabel != ground_truth_label) continue;
             T_world_base.push_back({toSeconds(pose->timestamp), toSE3(pose->pose.mean)});
-        } else if (const auto* frame =
-                       dynamic_cast<const CObservation3DRangeScan*>(observation.get())) {
+        } else if (const auto frame = asRgbdFrame(observation)) {
             if (!camera_known) T_base_cam = cameraOnRobot(*frame);
             camera_known = true;
         }

@@ -14,6 +14,8 @@
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/depth_registration.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
+#include "rgbd_graphslam/dataset/stereo_frame.h"
+#include "rgbd_graphslam/geometry/stereo_depth.h"
 
 namespace rgbd_graphslam {
 using mrpt::obs::CObservation3DRangeScan;
@@ -215,6 +217,9 @@ cv::Mat maskOf(const CObservation3DRangeScan& observation, cv::Size size) {
 }  // namespace
 
 RgbdImage colorAndDepth(const CObservation3DRangeScan::Ptr& observation) {
+    if (const auto* stereo = dynamic_cast<const StereoFrame*>(observation.get())) {
+        return withDenseDepth(stereo->images());
+    }
     checkContents(*observation);
     checkNumbers(*observation);
     loadExternals(*observation);
@@ -245,6 +250,11 @@ RgbdImage toRgbdImage(const CObservation3DRangeScan::Ptr& observation) {
     return image;
 }
 
+RgbdImage toTrackingImage(const CObservation3DRangeScan::Ptr& observation) {
+    const auto* stereo = dynamic_cast<const StereoFrame*>(observation.get());
+    return stereo ? stereo->images() : toRgbdImage(observation);
+}
+
 Intrinsics cameraOf(const CObservation3DRangeScan& observation) {
     constexpr int largest_image_px = 1 << 16;
     const Intrinsics stated = toCamera(observation.cameraParamsIntensity);
@@ -269,7 +279,9 @@ SE3 cameraOnRobot(const CObservation3DRangeScan& observation) {
 }
 
 RigCamera rigCameraOf(const CObservation3DRangeScan& observation) {
-    return {observation.sensorLabel, cameraOf(observation), cameraOnRobot(observation)};
+    const auto* stereo = dynamic_cast<const StereoFrame*>(&observation);
+    return {observation.sensorLabel, cameraOf(observation), cameraOnRobot(observation),
+            stereo ? stereo->disparityInMeterPixels() : 0};
 }
 
 CObservation3DRangeScan::Ptr makeRgbdObservation(const CameraSetup& setup, double stamp_s) {

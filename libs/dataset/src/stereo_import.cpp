@@ -150,7 +150,6 @@ class StereoImport {
         report_.notes = sequence_.motion.notes;
         report_.notes.push_back("left camera: " + lensText(calibration_.left) +
                                 "; right camera: " + lensText(calibration_.right) + baseline);
-        report_.notes.emplace_back("rgbd-slam does not track stereo pairs yet");
     }
 
     void warn() const {

@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include "rgbd_graphslam/geometry/stereo_depth.h"
+
 namespace rgbd_graphslam {
 namespace {
 
@@ -23,7 +25,7 @@ DenseView DenseViewBuilder::build(const RgbdImage& image) const {
     for (std::size_t i = 0; i < view.gray.size(); ++i) {
         view.gray[i] = meanGray(image.gray, blocks_.column(i), blocks_.row(i), blocks_.size());
     }
-    view.depth_m = blocks_.depthOf(image);
+    view.depth_m = blocks_.depthOf(image.depth.empty() ? withDenseDepth(image) : image);
     return view;
 }
 

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <memory>
 #include <string>
 
 #include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/features/stereo_matcher.h"
+#include "rgbd_graphslam/geometry/stereo_depth.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -55,6 +59,38 @@ OrbFeatures inMask(OrbFeatures features, const cv::Mat& mask, double scale_facto
     return rest;
 }
 
+/** Depth (m) at a pixel; 0 = none. */
+using DepthAt = std::function<float(float u, float v)>;
+
+DepthAt stereoDepth(const RgbdImage& image, const FeatureOptions& options) {
+    const double nearest_m = std::max(options.depth_min_m, 1e-3);
+    const auto matcher = std::make_shared<const StereoMatcher>(
+        image.gray, image.right,
+        largestDisparity(image.gray.cols, image.disparity_m_px, nearest_m));
+    return [matcher, disparity_m_px = image.disparity_m_px, farthest_m = options.farthestDepthM()](
+               float u, float v) {
+        const auto disparity = matcher->disparityAt(u, v);
+        const double z = disparity ? disparity_m_px / *disparity : 0;
+        return z <= farthest_m ? static_cast<float>(z) : 0;
+    };
+}
+
+DepthAt depthOf(const RgbdImage& image, const FeatureOptions& options) {
+    if (!image.right.empty()) return stereoDepth(image, options);
+    return [&image, &options](float u, float v) {
+        return foregroundDepth(image.depth, image.depth_unit_m, u, v, options);
+    };
+}
+
+void checkImages(const RgbdImage& image, const Camera& camera) {
+    checkImage(image.gray, CV_8UC1, "gray", camera, image.stamp_s);
+    if (image.right.empty()) {
+        checkImage(image.depth, CV_16UC1, "depth", camera, image.stamp_s);
+    } else {
+        checkImage(image.right, CV_8UC1, "right", camera, image.stamp_s);
+    }
+}
+
 }  // namespace
 
 float foregroundDepth(const cv::Mat& depth, double depth_unit_m, float u, float v,
@@ -91,8 +127,7 @@ FrameBuilder::FrameBuilder(const FeatureOptions& options, const Camera& camera)
       dense_(std::make_shared<DenseViewBuilder>(camera)) {}
 
 Frame FrameBuilder::build(const RgbdImage& image) const {
-    checkImage(image.gray, CV_8UC1, "gray", camera_, image.stamp_s);
-    checkImage(image.depth, CV_16UC1, "depth", camera_, image.stamp_s);
+    checkImages(image, camera_);
     Frame frame;
     frame.stamp_s = image.stamp_s;
     frame.view = std::async(std::launch::deferred, [dense = dense_, image] {
@@ -105,10 +140,10 @@ Frame FrameBuilder::build(const RgbdImage& image) const {
     frame.patches = std::move(features.patches);
     frame.keypoints.reserve(features.corners.size());
     const bool distorted = camera_.hasDistortion();
+    const DepthAt depth_at = depthOf(image, options_);
     for (const Corner& corner : features.corners) {
         Keypoint keypoint{corner.u, corner.v, 0, corner.angle_rad, corner.octave};
-        keypoint.depth_m =
-            foregroundDepth(image.depth, image.depth_unit_m, corner.u, corner.v, options_);
+        keypoint.depth_m = depth_at(corner.u, corner.v);
         if (distorted) {
             const Eigen::Vector2d pixel = camera_.rectify({corner.u, corner.v});
             keypoint.u = static_cast<float>(pixel.x());

@@ -12,7 +12,7 @@ bool coincide(const SE3& a, const SE3& b) {
 }  // namespace
 
 Rig rigOf(const CameraModel& camera) {
-    return {{{"", camera, {}}}};
+    return {{{"", camera, {}, 0}}};
 }
 
 std::optional<int> Rig::find(const std::string& label) const {

@@ -22,6 +22,7 @@
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/dataset/stereo_frame.h"
 
 namespace rgbd_graphslam {
 using mrpt::obs::CObservation3DRangeScan;
@@ -29,11 +30,16 @@ using mrpt::obs::CObservation3DRangeScan;
 namespace {
 
 void checkSize(const RgbdImage& image, const Camera& camera, std::size_t index) {
-    if (image.depth.cols == camera.width && image.depth.rows == camera.height) return;
-    throw Error("frame " + std::to_string(index) + " is " + std::to_string(image.depth.cols) + "x" +
-                    std::to_string(image.depth.rows) + " pixels, its camera's calibration is for " +
+    if (image.gray.cols == camera.width && image.gray.rows == camera.height) return;
+    throw Error("frame " + std::to_string(index) + " is " + std::to_string(image.gray.cols) + "x" +
+                    std::to_string(image.gray.rows) + " pixels, its camera's calibration is for " +
                     std::to_string(camera.width) + "x" + std::to_string(camera.height),
                 "import the sequence with the calibration of its camera");
+}
+
+bool isImage(const mrpt::obs::CObservation& observation) {
+    return dynamic_cast<const CObservation3DRangeScan*>(&observation) ||
+           dynamic_cast<const mrpt::obs::CObservationStereoImages*>(&observation);
 }
 
 void checkStamp(const CObservation3DRangeScan& frame, std::size_t index) {
@@ -117,15 +123,10 @@ class FrameStream::Implementation {
     /** \throws Error saying what the source has in place of frames of the camera asked for */
     [[noreturn]] void refuse() const {
         const std::string holds = "; it has " + sensorsText(census_.sensors(), false);
-        const std::size_t pairs = census_.stereoPairs();
-        if (sensor_label_.empty() && pairs > 0) {
-            throw Error(source_->name() + " has " + std::to_string(pairs) +
-                            " stereo pairs and no depth: stereo is not tracked yet",
-                        "compute depth images by stereo matching and import them with the left "
-                        "images, as rgb/ and depth/");
-        }
         if (sensor_label_.empty()) {
-            throw Error(source_->name() + " has no RGB-D frame (CObservation3DRangeScan)" + holds,
+            throw Error(source_->name() +
+                            " has no RGB-D frame (CObservation3DRangeScan) and no stereo pair" +
+                            holds,
                         "import a sequence with rgbd-import");
         }
         throw Error(source_->name() + " has no RGB-D camera '" + sensor_label_ + "'" + holds,
@@ -284,7 +285,7 @@ class FrameStream::Implementation {
         if (ended_) return std::nullopt;
         ended_ = true;  // for good, should reading throw
         while (const auto observation = source_->next()) {
-            auto frame = std::dynamic_pointer_cast<CObservation3DRangeScan>(observation);
+            auto frame = asRgbdFrame(observation);
             if (frame) takeIntoRig(frame);
             note(*observation);
             if (!frame) {
@@ -330,8 +331,7 @@ class FrameStream::Implementation {
     /** Wheels, IMU, truth, the stamps in comments, and the frames themselves. */
     bool isUsed(const mrpt::obs::CObservation& observation) const {
         using namespace mrpt::obs;
-        if (dynamic_cast<const CObservation3DRangeScan*>(&observation))
-            return rig_.find(observation.sensorLabel).has_value();
+        if (isImage(observation)) return rig_.find(observation.sensorLabel).has_value();
         if (dynamic_cast<const CObservationRobotPose*>(&observation))
             return observation.sensorLabel == ground_truth_label;
         return dynamic_cast<const CObservationIMU*>(&observation) ||
@@ -349,7 +349,7 @@ class FrameStream::Implementation {
 
     RgbdImage decoded(const CObservation3DRangeScan::Ptr& observation) {
         RgbdImage image;
-        times_.measure("decode", [&] { image = toRgbdImage(observation); });
+        times_.measure("decode", [&] { image = toTrackingImage(observation); });
         return image;
     }
 

@@ -33,14 +33,6 @@ void SensorCensus::leaveOut(const std::string& label) {
     }
 }
 
-std::size_t SensorCensus::stereoPairs() const {
-    std::size_t pairs = 0;
-    for (const SensorRecord& sensor : sensors_) {
-        if (sensor.class_name == "CObservationStereoImages") pairs += sensor.count;
-    }
-    return pairs;
-}
-
 std::string sensorsText(const std::vector<SensorRecord>& sensors, bool used) {
     std::string text;
     for (const SensorRecord& sensor : sensors) {
@@ -55,7 +47,7 @@ std::string severalCamerasText(const std::vector<SensorRecord>& sensors) {
     std::string text;
     std::size_t cameras = 0;
     for (const SensorRecord& sensor : sensors) {
-        if (!sensor.isRgbd()) continue;
+        if (!sensor.isCamera()) continue;
         text += (cameras++ ? ", '" : "'") + sensor.label + "' (" + std::to_string(sensor.count) +
                 (sensor.used ? " frames, used)" : " frames)");
     }

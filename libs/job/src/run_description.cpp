@@ -65,7 +65,7 @@ void describeSensors(RunState& run) {
     const std::string first = run.stream.rig().cameras.front().label;
     const bool all_used =
         std::all_of(run.report.sensors.begin(), run.report.sensors.end(),
-                    [](const SensorRecord& sensor) { return sensor.used || !sensor.isRgbd(); });
+                    [](const SensorRecord& sensor) { return sensor.used || !sensor.isCamera(); });
     const std::string text = "the rawlog has several RGB-D cameras: " + cameras;
     if (all_used) {
         sayInfo(text + "; tracked as one rig, dense maps are made of '" + first + "'");

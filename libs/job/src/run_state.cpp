@@ -26,10 +26,20 @@ double usedDepthShare(const RgbdImage& image, const FeatureOptions& features) {
     return static_cast<double>(used) / static_cast<double>(std::max<std::size_t>(1, all));
 }
 
+bool isStereo(const Rig& rig) {
+    return std::all_of(rig.cameras.begin(), rig.cameras.end(),
+                       [](const RigCamera& camera) { return camera.disparity_m_px > 0; });
+}
+
 /** \return the job, whose open settings the recording decides */
-const SlamJob& settled(SlamJob& job, const RecordingSurvey& survey) {
+const SlamJob& settled(SlamJob& job, const RecordingSurvey& survey, const Rig& rig) {
+    constexpr double stereo_depth_max_m = 100;  // errors grow with distance as the solvers know
     double& depth_max_m = job.options.slam.features.depth_max_m;
     if (depth_max_m > 0) return job;
+    if (isStereo(rig)) {
+        depth_max_m = stereo_depth_max_m;
+        return job;
+    }
     depth_max_m = survey.suitableDepthMaxM();
     if (depth_max_m > default_depth_max_m) {
         sayInfo(formatted("depth_max_m = %g: %.0f %% of the depth readings are beyond %g m",
@@ -53,7 +63,7 @@ RunState::RunState(const SlamJob& slam_job, std::optional<SparseMap> start_map)
       stream(std::make_unique<RawlogSource>(job.rawlog),
              {job.options.run.threads, job.options.run.frames_ahead}, job.sensor_label),
       survey(stream.lookAhead(RecordingSurvey::frames)),
-      session(makeSession(settled(job, survey), stream, start)),
+      session(makeSession(settled(job, survey, stream.rig()), stream, start)),
       level(job.options.maps),
       sensors(stream.firstFrame()) {
     if (!start) return;

@@ -34,7 +34,7 @@ void checkFolders(const SlamJob& job) {
 void tellOfRecording(const RunState& run) {
     sayDetail("depth: " + toText(run.survey.depth()));
     const std::string cameras = severalCamerasText(run.stream.sensors());
-    if (!cameras.empty()) sayInfo("RGB-D cameras: " + cameras + "; --sensor LABEL chooses another");
+    if (!cameras.empty()) sayInfo("cameras: " + cameras + "; --sensor LABEL chooses another");
     for (const SurveyWarning& warning :
          run.survey.warnings(run.job.options.slam.features, run.job.options.maps)) {
         if (run.job.strict && warning.refuses) {

@@ -14,6 +14,7 @@
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rawlog_reader.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/dataset/stereo_frame.h"
 
 namespace rgbd_graphslam {
 using mrpt::obs::CObservation;
@@ -74,8 +75,7 @@ std::size_t forEachKeyframe(const RecordedCamera& camera, const Trajectory& keyf
         if (!observation) break;
         noteDepthStamps(*observation, depth_stamps);
         if (note) note(*observation);
-        const auto frame =
-            std::dynamic_pointer_cast<mrpt::obs::CObservation3DRangeScan>(observation);
+        const auto frame = asRgbdFrame(observation);
         if (!frame) continue;
         if (!sensor_label) sensor_label = frame->sensorLabel;
         if (frame->sensorLabel != *sensor_label || !frame->hasRangeImage) continue;

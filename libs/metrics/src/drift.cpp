@@ -111,9 +111,9 @@ DriftResult evaluateDrift(const Trajectory& estimate, const Trajectory& truth,
     result.lengths_m = lengthsFor(way.back(), options.lengths_m);
     for (const double length_m : result.lengths_m) addErrors(matched, way, length_m, result);
     if (result.errors.empty()) {
-        throw Error("the true way of " + std::to_string(way.back()) +
-                        " m is shorter than every length",
-                    "give shorter ones with --lengths");
+        throw Error(
+            "the true way of " + std::to_string(way.back()) + " m is shorter than every length",
+            "give shorter ones with --lengths");
     }
     summarize(result);
     return result;

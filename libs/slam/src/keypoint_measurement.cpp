@@ -12,7 +12,7 @@ Measurement measurementOf(const Keypoint& keypoint, double octave_scale,
     if (keypoint.depth_m > 0) {
         const double z = keypoint.depth_m;
         m.inverse_depth = 1 / z;
-        m.weight_depth = z * z / sensor.depth_noise.sigma(z);
+        m.weight_depth = 1 / sensor.inverseDepthSigma(z, keypoint.camera);
     }
     return m;
 }

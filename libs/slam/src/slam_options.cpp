@@ -12,6 +12,16 @@ void SensorOptions::describe(OptionVisitor& v) {
     v.real("depth_sigma_b", depth_noise.b, 0, 1, "1/m", "Depth standard deviation: quadratic term");
     v.real("depth_sigma_c", depth_noise.c, 0, 10, "m",
            "Depth standard deviation: distance of smallest error");
+    v.real("disparity_sigma_px", disparity_sigma_px, 0.01, 10, "px",
+           "Standard deviation of a disparity of a stereo camera, which has no depth_sigma_*");
+}
+
+double SensorOptions::inverseDepthSigma(double depth_m, int camera) const {
+    const auto i = static_cast<std::size_t>(camera);
+    if (i < disparity_m_px.size() && disparity_m_px[i] > 0) {
+        return disparity_sigma_px / disparity_m_px[i];
+    }
+    return depth_noise.sigma(depth_m) / (depth_m * depth_m);
 }
 
 void TrackerOptions::describe(OptionVisitor& v) {

@@ -26,8 +26,16 @@ std::vector<FrameBuilder> SlamPipeline::buildersFor(const FeatureOptions& featur
     return builders;
 }
 
+SlamOptions SlamPipeline::optionsFor(SlamOptions options, const Rig& rig) {
+    options.sensor.disparity_m_px.clear();
+    for (const RigCamera& camera : rig.cameras) {
+        options.sensor.disparity_m_px.push_back(camera.disparity_m_px);
+    }
+    return options;
+}
+
 SlamPipeline::SlamPipeline(const SlamOptions& options, const Rig& rig)
-    : options_(options),
+    : options_(optionsFor(options, rig)),
       rig_(rig),
       cameras_(rig_),
       builders_(buildersFor(options_.features, rig_)),

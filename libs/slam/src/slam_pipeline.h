@@ -52,6 +52,7 @@ class SlamPipeline {
     void load(ByteReader& in);
 
   private:
+    static SlamOptions optionsFor(SlamOptions options, const Rig& rig);
     static std::vector<FrameBuilder> buildersFor(const FeatureOptions& features, const Rig& rig);
     Frame build(const std::vector<CameraImage>& images) const;
     void start(Frame frame, FrameRecord& record);

@@ -18,7 +18,12 @@
 namespace rgbd_graphslam::synth {
 
 namespace {
-enum Purpose : std::uint64_t { kColorNoise = 10, kDepthNoise = 11, kStampJitter = 12, kRightNoise = 13 };
+enum Purpose : std::uint64_t {
+    kColorNoise = 10,
+    kDepthNoise = 11,
+    kStampJitter = 12,
+    kRightNoise = 13
+};
 
 double toMicroseconds(double stamp_s) {
     return std::round(stamp_s * 1e6) / 1e6;

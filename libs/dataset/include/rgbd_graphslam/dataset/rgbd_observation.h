@@ -15,8 +15,9 @@ inline constexpr const char* imu_label = "IMU";
 inline constexpr const char* odometry_label = "ODOMETRY";
 inline constexpr const char* ground_truth_label = "GROUND_TRUTH";
 
-/** The frame in our terms. Depth that another camera took, by the observation's two calibrations
- * and their relative pose, is registered to color. Other pixels are shared with the observation,
+/** The frame in our terms. Depth of a StereoFrame is matched densely, which takes its time. Depth
+ * that another camera took, by the observation's two calibrations and their relative pose, is
+ * registered to color. Other pixels are shared with the observation,
  * which `owner` keeps alive; images stored outside the rawlog are loaded; the gray image is made
  * here; a confidence image of the color image's size is the mask, under which depth is removed.
  * \throws Error naming the stamp when color or depth is absent or unreadable, of different
@@ -24,8 +25,11 @@ inline constexpr const char* ground_truth_label = "GROUND_TRUTH";
  *          ranges are not depths along the optical axis, or as cameraOf() */
 RgbdImage toRgbdImage(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
 
-/** The same without a gray image that is made: there is one only where the camera is gray, and then
- *  no color image. Depth under the mask is kept. */
+/** The same for tracking: of a StereoFrame, the pair without depth. */
+RgbdImage toTrackingImage(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
+
+/** The same as toRgbdImage() without a gray image that is made: there is one only where the camera
+ *  is gray, and then no color image. Depth under the mask is kept. */
 RgbdImage colorAndDepth(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
 
 /** Calibration of the color camera. One made for images an exact number of times as large or small

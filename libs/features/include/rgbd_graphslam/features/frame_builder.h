@@ -15,9 +15,10 @@ class FrameBuilder {
   public:
     FrameBuilder(const FeatureOptions& options, const Camera& camera);
 
-    /** Extracts corners, rectifies their positions and reads their depth. Thread-safe. The frame
-     *  shares the pixels until its view is dropped.
-     *  \throws Error when the images are not of the camera's size or of the wrong type */
+    /** Extracts corners, rectifies their positions and reads their depth, or matches it where the
+     *  image has a right one (see StereoMatcher). Thread-safe. The frame shares the pixels until
+     * its view is dropped. \throws Error when the images are not of the camera's size or of the
+     * wrong type */
     Frame build(const RgbdImage& image) const;
     /** Of the frames' small images. */
     const Camera& viewCamera() const { return dense_->camera(); }

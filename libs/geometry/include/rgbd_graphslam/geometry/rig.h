@@ -14,6 +14,9 @@ struct RigCamera {
     std::string label;  // of the sensor, as observations have it
     CameraModel model;
     SE3 T_body_cam;  // camera: optical frame
+    /** Focal length times baseline of a rectified stereo camera, whose depth errors follow from
+     *  those of its disparities; 0 = a depth camera. */
+    double disparity_m_px = 0;
 };
 
 /** Numbered from 0 in the order given; see Keypoint::camera. */

@@ -14,7 +14,10 @@ struct SensorRecord {
     std::size_t count = 0;
     bool used = false;
 
-    bool isRgbd() const { return class_name == "CObservation3DRangeScan"; }
+    /** Whether its images are tracked: an RGB-D or stereo camera. */
+    bool isCamera() const {
+        return class_name == "CObservation3DRangeScan" || class_name == "CObservationStereoImages";
+    }
 };
 
 /** Counts the observations of each sensor. */
@@ -26,8 +29,6 @@ class SensorCensus {
     void leaveOut(const std::string& label);
     /** In the order in which they first came. */
     const std::vector<SensorRecord>& sensors() const { return sensors_; }
-    /** Observations of stereo cameras. */
-    std::size_t stereoPairs() const;
 
   private:
     std::vector<SensorRecord> sensors_;
@@ -37,7 +38,7 @@ class SensorCensus {
  *  are used, or of those that are not, comments apart; "none" where there are none. */
 std::string sensorsText(const std::vector<SensorRecord>& sensors, bool used);
 
-/** "'FRONT' (300 frames, used) and 'REAR' (299 frames)"; empty with fewer than two RGB-D cameras.
+/** "'FRONT' (300 frames, used) and 'REAR' (299 frames)"; empty with fewer than two cameras.
  */
 std::string severalCamerasText(const std::vector<SensorRecord>& sensors);
 

@@ -16,6 +16,13 @@ struct SensorOptions : Options {
     /** Larger close by than the sensor's own noise: registration and color and depth taken at
      *  different moments displace depth too (doc/design-decisions.md). */
     DepthNoise depth_noise{0.005, 0.0019, 0.4};
+    double disparity_sigma_px = 0.25;
+    /** Depth times disparity (m px) of each stereo camera, 0 of other cameras, by its number in the
+     *  rig; the rig tells, not a setting. */
+    std::vector<double> disparity_m_px;
+
+    /** Standard deviation (1/m) of the inverse of a depth that a camera has measured. */
+    double inverseDepthSigma(double depth_m, int camera) const;
 
     const char* section() const override { return "SensorOptions"; }
     const char* about() const override { return "Sensor noise model"; }
