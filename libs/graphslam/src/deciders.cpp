@@ -17,7 +17,7 @@ void nameAndHush(Decider& decider, const char* name) {
 
 void track(SharedSlam& shared, const CObservation3DRangeScan::Ptr& frame) {
     if (!shared.slam) startSlam(shared, Rig{{rigCameraOf(*frame)}});
-    if (!shared.prepared) shared.prepared = shared.slam->prepare(toRgbdImage(frame));
+    if (!shared.prepared) shared.prepared = shared.slam->prepare(toTrackingImage(frame));
     Frame prepared = std::move(*shared.prepared);
     shared.prepared.reset();
     shared.last = shared.slam->track(std::move(prepared));

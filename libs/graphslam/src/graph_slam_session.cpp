@@ -157,7 +157,7 @@ TrackedFrame GraphSlamSession::step(const CObservation3DRangeScan::Ptr& observat
 }
 
 TrackedFrame GraphSlamSession::step(const CObservation3DRangeScan::Ptr& observation) {
-    return step(observation, prepare(toRgbdImage(observation)));
+    return step(observation, prepare(toTrackingImage(observation)));
 }
 
 void GraphSlamSession::finish() {

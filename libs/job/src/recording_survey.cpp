@@ -28,6 +28,7 @@ RecordingSurvey::RecordingSurvey(
 void RecordingSurvey::add(const mrpt::obs::CObservation3DRangeScan::Ptr& observation) {
     const RgbdImage image = colorAndDepth(observation);
     depth_unit_m_ = image.depth_unit_m;
+    stereo_ = !image.right.empty();
     depths_.add(image.depth);
     focal_length_px_ = CameraModel(cameraOf(*observation)).pixelsPerRadian().x();
     if (!image.color.empty()) registration_.add(image.color, image.depth);
@@ -43,6 +44,7 @@ double RecordingSurvey::suitableDepthMaxM() const {
 }
 
 std::optional<SurveyWarning> RecordingSurvey::unitsWarning() const {
+    if (stereo_) return std::nullopt;
     const DepthSummary summary = depth();
     // TUM's units are those of an import that was told none.
     const bool assumed = std::abs(1 / depth_unit_m_ - 5000) < 1;

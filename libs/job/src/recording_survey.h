@@ -52,6 +52,7 @@ class RecordingSurvey {
     DepthHistogram depths_;
     double depth_unit_m_ = 0.001, focal_length_px_ = 0;
     RegistrationCheck registration_;
+    bool stereo_ = false;  // whose depth has no unit that could be wrong
 };
 
 }  // namespace rgbd_graphslam
