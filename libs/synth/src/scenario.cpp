@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "calibration_board.h"
 #include "deceits.h"
 #include "filming.h"
 #include "places.h"
@@ -222,6 +223,7 @@ const std::vector<Scenario>& scenarios() {
         blackout(),
         blackoutRobot(),
         wheelSlip(),
+        board(),
     };
     return all;
 }

@@ -66,10 +66,10 @@ INSTANTIATE_TEST_SUITE_P(All, EveryScenario,
                                          "chair-moved", "pushed-cart", "starts-in-crowd", "lift",
                                          "under-desk", "ceiling-lamp", "arm-in-view",
                                          "dirty-lens", "blackout", "blackout-robot",
-                                         "wheel-slip"));
+                                         "wheel-slip", "board"));
 
 TEST(Scenario, TheListHoldsAllThatAreTested) {
-    EXPECT_EQ(scenarios().size(), 24u);
+    EXPECT_EQ(scenarios().size(), 25u);
 }
 
 TEST(Scenario, AnUnknownNameIsAnErrorThatListsTheNames) {
