@@ -131,6 +131,8 @@ int main(int argc, char** argv) {
                    "PICTURE DIR...: show rendered sequences in one picture and exit");
     app.add_option("--session", options.session, "Session, for scenarios with several")
         ->capture_default_str();
+    app.add_flag("--scanner", options.scanner,
+                 "planar robots: scans.txt of a 2-D laser scanner, 270 degrees, 40 Hz");
     app.add_flag_callback(
         "--without-movers", [&] { options.movers = false; },
         "Render the same sequence without what deceives the camera: movers, arm, dirt, flare, "

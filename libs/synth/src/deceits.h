@@ -18,5 +18,6 @@ Scenario dirtyLens();
 Scenario blackout();
 Scenario blackoutRobot();
 Scenario wheelSlip();
+Scenario glassCorridor();
 
 }  // namespace rgbd_graphslam::synth

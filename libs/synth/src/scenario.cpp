@@ -224,6 +224,7 @@ const std::vector<Scenario>& scenarios() {
         blackoutRobot(),
         wheelSlip(),
         board(),
+        glassCorridor(),
     };
     return all;
 }

@@ -316,6 +316,7 @@ FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std
     writeSurface(folder + "/surface.ply", scene);
     writeCameraIni(folder, options, static_cast<bool>(world.motion.T_world_base));
     writeMotionFiles(folder, options.seed, world, frames);
+    writeScans(folder + "/scans.txt", options, world, scene, frames);
     writeLabelsIni(folder + "/labels.ini");
     writeMovers(folder + "/movers.csv", options, world.movers, scene.figures, frames);
 

@@ -5,6 +5,8 @@
 #include <fstream>
 
 #include "rgbd_graphslam/core/atomic_file.h"
+#include "rgbd_graphslam/core/error.h"
+#include "rgbd_graphslam/synth/laser_scanner.h"
 #include "rgbd_graphslam/synth/robot_sensors.h"
 
 namespace rgbd_graphslam::synth {
@@ -87,6 +89,15 @@ void writeSlips(const std::string& path, const std::vector<SlipEpisode>& slips) 
     });
 }
 
+std::string scanHeader(const ScannerModel& model) {
+    const Eigen::Vector3d at = robotScanner().t;
+    return formatted(
+        "# laser scans: ranges in m from right to left, 0 = none\n"
+        "# aperture_deg = %g\n# max_range_m = %g\n"
+        "# sensor_pose = [%g %g %g 0 0 0]\n# timestamp ranges...\n",
+        model.field_deg, model.max_range_m, at.x(), at.y(), at.z());
+}
+
 /** A body's extent in its own axes. */
 Eigen::AlignedBox3d extentOf(const MovingBody& body) {
     Eigen::AlignedBox3d box;
@@ -159,6 +170,27 @@ void writeMotionFiles(const std::string& folder, std::uint64_t seed, const World
     if (!world.motion.T_world_base) return;
     writeOdometry(folder + "/odometry.txt", seed, world, frames);
     if (!world.slips.empty()) writeSlips(folder + "/slips.csv", world.slips);
+}
+
+void writeScans(const std::string& path, const FilmOptions& options, const World& world,
+                const Scene& scene, int frames) {
+    if (!options.scanner) return;
+    if (!world.motion.T_world_base) {
+        throw Error("the scanner is mounted on planar robots only", "leave --scanner out");
+    }
+    ScannerModel model;
+    if (!options.noise) model.noise_m = 0;
+    const LaserScanner scanner(world, scene, model, options.seed);
+    writeStream(path, [&](std::ostream& out) {
+        out << scanHeader(model);
+        forEachReading(model.hertz, frames, [&](double t, long i) {
+            out << formatted("%.6f", kFirstStamp_s + t);
+            for (const double range : scanner.scan(t, static_cast<std::uint64_t>(i))) {
+                out << (range > 0 ? formatted(" %.3f", range) : " 0");
+            }
+            out << '\n';
+        });
+    });
 }
 
 void writeCameraIni(const std::string& folder, const FilmOptions& options, bool on_robot) {

@@ -17,6 +17,10 @@ void writePictureLists(const std::string& folder, const FilmOptions& options, in
  *  the wheels slip. */
 void writeMotionFiles(const std::string& folder, std::uint64_t seed, const World& world,
                       int frames);
+/** Of the laser scanner, where it is asked for.
+ *  \throws Error when no robot carries the camera */
+void writeScans(const std::string& path, const FilmOptions& options, const World& world,
+                const Scene& scene, int frames);
 /** Of both cameras of a stereo camera. */
 void writeCameraIni(const std::string& folder, const FilmOptions& options, bool on_robot);
 /** Names and colors of the values of label pictures. */

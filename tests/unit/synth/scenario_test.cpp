@@ -64,12 +64,12 @@ INSTANTIATE_TEST_SUITE_P(All, EveryScenario,
                                          "kidnapped", "low-texture", "no-structure", "dynamic",
                                          "dark", "long-run", "crowd", "follow-me", "door",
                                          "chair-moved", "pushed-cart", "starts-in-crowd", "lift",
-                                         "under-desk", "ceiling-lamp", "arm-in-view",
-                                         "dirty-lens", "blackout", "blackout-robot",
-                                         "wheel-slip", "board"));
+                                         "under-desk", "ceiling-lamp", "arm-in-view", "dirty-lens",
+                                         "blackout", "blackout-robot", "wheel-slip", "board",
+                                         "glass-corridor"));
 
 TEST(Scenario, TheListHoldsAllThatAreTested) {
-    EXPECT_EQ(scenarios().size(), 25u);
+    EXPECT_EQ(scenarios().size(), 26u);
 }
 
 TEST(Scenario, AnUnknownNameIsAnErrorThatListsTheNames) {

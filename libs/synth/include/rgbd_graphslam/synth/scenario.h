@@ -33,6 +33,8 @@ struct World {
     /** The scene of the same film without movers, where more differs than the movers; empty: the
      *  same scene. */
     std::function<Scene()> scene_without_movers;
+    /** Glass, which cameras look through and lasers see. */
+    std::vector<Quad> panes = {};
     /** Times [from, to) at which the camera is covered. */
     std::vector<std::pair<double, double>> covered;
     /** The same, where that is all that is wrong: the way goes on as if nothing were. */

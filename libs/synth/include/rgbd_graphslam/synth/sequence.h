@@ -43,6 +43,8 @@ struct FilmOptions {
     InertialModel inertial{0, 0, 0, 0};
     /** See WheelModel::radius_error. */
     double wheel_radius_error = 0;
+    /** Writes scans.txt of a laser scanner on a planar robot, see ScannerModel. */
+    bool scanner = false;
 };
 
 /** The camera of a sequence: 525 pixels of focal length at 640 x 480, scaled to other widths; with
@@ -67,13 +69,14 @@ struct FilmSummary {
 /** Known without filming. */
 FilmSummary summary(const World& world, int frames);
 
-/** Renders all frames and writes rgb/, depth/, rgb.txt, depth.txt (of a stereo camera left/, right/,
- *  left.txt, right.txt), groundtruth.txt, accelerometer.txt, gyroscope.txt, odometry.txt (planar
- *  robots only), slips.csv (where wheels slip for a while), camera.ini, surface.ply, and what is
- *  known of each color picture under its name: movers/ (255 where it shows what moves by itself or
- *  belongs to lens or carrier) and label/ (classes, named in labels.ini); movers.csv tells where the
- *  movers were. The bytes depend on scenario and options alone. Memory does not grow with the
- *  frames. \throws Error when the folder holds frames already or cannot be written */
+/** Renders all frames and writes rgb/, depth/, rgb.txt, depth.txt (of a stereo camera left/,
+ * right/, left.txt, right.txt), groundtruth.txt, accelerometer.txt, gyroscope.txt, odometry.txt and
+ *  scans.txt (planar robots only), slips.csv (where wheels slip for a while), camera.ini,
+ * surface.ply, and what is known of each color picture under its name: movers/ (255 where it shows
+ * what moves by itself or belongs to lens or carrier) and label/ (classes, named in labels.ini);
+ * movers.csv tells where the movers were. The bytes depend on scenario and options alone. Memory
+ * does not grow with the frames. \throws Error when the folder holds frames already or cannot be
+ * written */
 FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std::string& folder);
 
 }  // namespace rgbd_graphslam::synth
