@@ -17,6 +17,7 @@ constexpr std::size_t most_spans = 1500, fewest_spans = 20;
 /** Turning of the camera (RMS about its mean) below which nothing can be told. */
 constexpr double least_turning_rad_s = 0.08;
 constexpr double delay_step_s = 0.01;
+constexpr double fine_step_s = 0.004;
 constexpr int most_delay_steps = 50;
 constexpr double least_delay_s = 0.05;
 /** Correlation of a hypothesis that explains the readings, and of one that explains nothing. */
@@ -167,19 +168,37 @@ class GyroscopeCheck {
         });
     }
 
-    /** Between the steps the peak is a parabola's; its bend tells how well it is known. */
-    void nameDelay(const Match& match, SensorVerdict& verdict) const {
-        if (match.delay == 0 || match.delay == 2 * most_delay_steps) return;
+    /** The peak is a parabola's; its bend tells how well it is known. */
+    std::optional<StampDelay> delayOf(const Match& match) const {
+        if (match.delay == 0 || match.delay == 2 * most_delay_steps) return std::nullopt;
         const double before = at_delay_[match.delay - 1].correlation(match.axes);
         const double after = at_delay_[match.delay + 1].correlation(match.axes);
         const double bend = before - 2 * match.correlation + after;
-        if (bend >= 0) return;
+        if (bend >= 0) return std::nullopt;
         const int step = match.delay - most_delay_steps;
-        const double delay_s = delay_step_s * (step + 0.5 * (before - after) / bend);
         const auto n = static_cast<double>(at_delay_[match.delay].count);
-        const double sigma_s =
-            delay_step_s * std::sqrt(unexplained(match.correlation) / (n * -bend));
+        const double coarse_s = delay_step_s * (step + 0.5 * (before - after) / bend);
+        return StampDelay{refined(coarse_s, match.axes),
+                          delay_step_s * std::sqrt(unexplained(match.correlation) / (n * -bend))};
+    }
+
+    /** The parabola through three delays this near to the peak is not bent by what is farther. */
+    double refined(double coarse_s, const Eigen::Matrix3d& axes) const {
+        const auto at = [&](double delay_s) {
+            return momentsAt(delay_s, readings_, turnings_).correlation(axes);
+        };
+        const double here = at(coarse_s), before = at(coarse_s - fine_step_s),
+                     after = at(coarse_s + fine_step_s);
+        const double bend = before - 2 * here + after;
+        if (bend >= 0) return coarse_s;
+        return coarse_s + fine_step_s * std::clamp(0.5 * (before - after) / bend, -1.0, 1.0);
+    }
+
+    void nameDelay(const Match& match, SensorVerdict& verdict) const {
+        verdict.measured_delay = delayOf(match);
+        if (!verdict.measured_delay) return;
         constexpr double sigmas = 5;
+        const auto [delay_s, sigma_s] = *verdict.measured_delay;
         if (std::abs(delay_s) < std::max(least_delay_s, sigmas * sigma_s)) return;
         verdict.fault = SensorFault::TimeOffset;
         verdict.delay_s = delay_s;

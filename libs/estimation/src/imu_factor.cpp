@@ -13,6 +13,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 using Matrix156d = Eigen::Matrix<double, 15, 6>;
 using Matrix159d = Eigen::Matrix<double, 15, 9>;
+using Matrix153d = Eigen::Matrix<double, 15, 3>;
 
 ImuBias biasOf(const MotionState& motion) {
     return {motion.gyro_bias, motion.accelerometer_bias};
@@ -78,6 +79,13 @@ Matrix159d bySecondMotion(const Prediction& p) {
     return J;
 }
 
+Matrix153d byGravity(const Prediction& p, double dt) {
+    Matrix153d J = Matrix153d::Zero();
+    J.block<3, 3>(0, 0) = -0.5 * dt * dt * p.R_from_world;
+    J.block<3, 3>(6, 0) = -dt * p.R_from_world;
+    return J;
+}
+
 }  // namespace
 
 ImuFactor::ImuFactor(int from, int to, const ImuIncrement& increment,
@@ -91,10 +99,16 @@ ImuFactor::ImuFactor(int from, int to, const ImuIncrement& increment,
     whitening_.diagonal().tail<3>().setConstant(1 / (noise.accelerometer_walk * root));
 }
 
+std::vector<StateKey> ImuFactor::states() const {
+    std::vector<StateKey> keys{poseKey(from_), motionKey(from_), poseKey(to_), motionKey(to_)};
+    if (gravity_point_) keys.push_back(pointKey(*gravity_point_));
+    return keys;
+}
+
 bool ImuFactor::linearize(const StateBlocks& states, Linearization& out) const {
     const MotionState from = states.motion(1), to = states.motion(3);
     const Prediction predicted(T_imu_body_ * states.pose(0), from, T_imu_body_ * states.pose(2), to,
-                               gravity_, increment_.duration_s);
+                               gravity_point_ ? states.point(4) : gravity_, increment_.duration_s);
     const ImuIncrement measured = increment_.corrected(biasOf(from));
     const Vector15d error = errorOf(predicted, measured, from, to);
     out.setResidual(Vector15d(whitening_ * error));
@@ -108,6 +122,9 @@ bool ImuFactor::linearize(const StateBlocks& states, Linearization& out) const {
         1, Matrix159d(whitening_ * byFirstMotion(predicted, increment_, by_left_turn, turned)));
     out.setJacobian(2, Matrix156d(whitening_ * bySecondPose(predicted, by_right_turn) * by_body));
     out.setJacobian(3, Matrix159d(whitening_ * bySecondMotion(predicted)));
+    if (gravity_point_) {
+        out.setJacobian(4, Matrix153d(whitening_ * byGravity(predicted, increment_.duration_s)));
+    }
     return true;
 }
 

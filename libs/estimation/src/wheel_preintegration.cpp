@@ -42,16 +42,6 @@ void addStep(const PlanarPose& motion, const WheelNoise& noise, WheelIncrement& 
 
 }  // namespace
 
-PlanarPose PlanarPose::operator*(const PlanarPose& other) const {
-    const double c = std::cos(yaw), s = std::sin(yaw);
-    return {x + c * other.x - s * other.y, y + s * other.x + c * other.y, wrapped(yaw + other.yaw)};
-}
-
-PlanarPose PlanarPose::inverse() const {
-    const double c = std::cos(yaw), s = std::sin(yaw);
-    return {-(c * x + s * y), s * x - c * y, -yaw};
-}
-
 std::optional<WheelIncrement> preintegrate(const std::vector<WheelSample>& samples, double from_s,
                                            double to_s, const WheelNoise& noise,
                                            double longest_gap_s) {

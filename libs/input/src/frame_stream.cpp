@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "dead_reckoner.h"
+#include "motion_readings_collector.h"
 #include "rgbd_graphslam/core/bounded_queue.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
@@ -206,7 +207,12 @@ class FrameStream::Implementation {
 
     /** The frame is where its first observation was; what lies between the two comes before it. */
     static void add(StreamedFrame other, StreamedFrame& frame) {
-        frame.before.insert(frame.before.end(), other.before.begin(), other.before.end());
+        const auto append = [](const auto& more, auto& list) {
+            list.insert(list.end(), more.begin(), more.end());
+        };
+        append(other.before, frame.before);
+        append(other.readings.imu, frame.readings.imu);
+        append(other.readings.wheels, frame.readings.wheels);
         if (other.camera < frame.camera) {
             std::swap(frame.observation, other.observation);
             std::swap(frame.camera, other.camera);
@@ -304,6 +310,7 @@ class FrameStream::Implementation {
             read.before = std::exchange(before_, {});
             read.index = index;
             read.reckoning = reckoner_.at(toSeconds(frame->timestamp), cameraOnRobot(*first_));
+            read.readings = readings_.take(cameraOnRobot(*first_));
             read.observation = std::move(frame);
             read.camera = *camera;
             return read;
@@ -323,6 +330,7 @@ class FrameStream::Implementation {
 
     void note(const mrpt::obs::CObservation& observation) {
         reckoner_.note(observation);
+        readings_.note(observation);
         const std::lock_guard<std::mutex> lock(notes_access_);
         noteTruth(observation);
         census_.note(observation, isUsed(observation));
@@ -363,6 +371,7 @@ class FrameStream::Implementation {
         }
         frame.prepared = prepare_(images);
         frame.prepared.reckoning = frame.reckoning;
+        frame.prepared.readings = std::move(frame.readings);
     }
 
     const int threads_;
@@ -373,6 +382,7 @@ class FrameStream::Implementation {
     std::mutex reading_;  // guards all down to frames_read_
     const std::unique_ptr<ObservationSource> source_;
     DeadReckoner reckoner_;
+    MotionReadingsCollector readings_;
     std::vector<mrpt::obs::CObservation::Ptr> before_;
     bool ended_ = false;
     std::deque<StreamedFrame> pending_;

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "motion_json.h"
 #include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/core/printable_text.h"
 #include "rgbd_graphslam/metrics/statistics.h"
@@ -228,6 +229,7 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"path_m", report.path_m},
         {"ate", ateJson(report)},
         {"quality", qualityJson(report.quality)},
+        {"motion", motionJson(report.motion, report.imu_delay)},
         {"frames_per_s", report.framesPerSecond()},
         {"cpu_ms_a_frame", report.cpuMsAFrame()},
         {"tracking_wall_s", report.tracking_wall_s},

@@ -140,6 +140,8 @@ void describeRun(RunState& run) {
     describeLoops(truth, run);
     evaluate(estimate, truth, run);
     run.report.quality = frameQuality(slam.frames());
+    run.report.motion = slam.motion();
+    run.report.imu_delay = run.sensors.gyroscopeDelay();
     run.report.quality.loops = loopResiduals(slam.loops(), slam.keyframes());
     collectStages(run);
 }

@@ -70,9 +70,15 @@ void SensorWatch::note(const mrpt::obs::CObservation& observation) {
     }
 }
 
-void SensorWatch::withhold(DeadReckoning& reckoning) const {
-    if (odometry_.left_out) reckoning.T_odometry_cam.reset();
-    if (gyroscope_.left_out) reckoning.R_gyroscope_cam.reset();
+void SensorWatch::withhold(Frame& frame) const {
+    if (odometry_.left_out) {
+        frame.reckoning.T_odometry_cam.reset();
+        frame.readings.wheels.clear();
+    }
+    if (gyroscope_.left_out) {
+        frame.reckoning.R_gyroscope_cam.reset();
+        frame.readings.imu.clear();
+    }
 }
 
 void SensorWatch::compareWhenDue(const VisualSlam& slam, std::size_t frames) {
@@ -125,6 +131,7 @@ void SensorWatch::compareGyroscope(const TrackedStretches& camera) {
     const SE3 T_cam_gyroscope = T_base_cam_.inverse() * gyroscope_.T_base_sensor;
     const SensorVerdict verdict =
         checkGyroscope(gyroscope_.readings.kept(), movedAlong(camera, T_cam_gyroscope));
+    if (verdict.measured_delay) gyroscope_delay_ = verdict.measured_delay;
     const ImuMount mount{T_base_camera_sensor_, gyroscope_.T_base_sensor};
     take(verdict, "gyroscope", imuRemedy(verdict, mount, true), gyroscope_);
 }

@@ -26,7 +26,7 @@ class SensorWatch {
     void note(const mrpt::obs::CObservation& observation);
 
     /** Takes away what sensors say that are left out. */
-    void withhold(DeadReckoning& reckoning) const;
+    void withhold(Frame& frame) const;
 
     /** Compares when it is time. \param frames how many were tracked so far */
     void compareWhenDue(const VisualSlam& slam, std::size_t frames);
@@ -34,6 +34,9 @@ class SensorWatch {
     /** Compares with the final trajectory, and the camera's way with the accelerometer's;
      *  tells of sensors that end before the frames do. */
     void conclude(const VisualSlam& slam);
+
+    /** Of the gyroscope's stamps, by the last comparison. */
+    const std::optional<StampDelay>& gyroscopeDelay() const { return gyroscope_delay_; }
 
     void save(ByteWriter& out) const;
     /** \throws DamagedBytes */
@@ -60,6 +63,7 @@ class SensorWatch {
     /** Frames that may have followed a sensor that is found wrong only at the end. */
     std::ptrdiff_t bridged_frames_ = 0;
     Sensor gyroscope_, accelerometer_, odometry_;
+    std::optional<StampDelay> gyroscope_delay_;
 };
 
 }  // namespace rgbd_graphslam

@@ -91,7 +91,7 @@ void TrackingLoop::trackOne(StreamedFrame& frame) {
     if (!run_.first_stamp_s) run_.first_stamp_s = stamp_s;
     ++run_.report.frames;
     const ThreadClock clock;
-    run_.sensors.withhold(frame.prepared.reckoning);
+    run_.sensors.withhold(frame.prepared);
     const TrackedFrame tracked = run_.session.step(frame.observation, std::move(frame.prepared));
     run_.sensors.compareWhenDue(run_.session.slam(), run_.report.frames);
     run_.report.frame_times.push_back({stamp_s, clock.wallMs()});

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "motion_section.h"
 #include "rgbd_graphslam/core/error.h"
 
 namespace rgbd_graphslam {
@@ -165,6 +166,7 @@ void readFigures(const Json& summary, RunRecord& run) {
     }
     run.sensors = sensorsOf(summary.value("sensor_figures", Json::array()));
     run.quality = qualityOf(summary.value("quality", Json()));
+    run.motion = motionFigures(summary.value("motion", Json()));
     const Json ate = summary.value("ate", Json());
     if (!ate.is_null()) run.ate_rmse_m = ate.at("rmse_m").get<double>();
     const Json false_loops = summary.value("false_loops", Json());

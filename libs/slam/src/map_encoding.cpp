@@ -117,17 +117,24 @@ SE3 decodePose(ByteReader& in) {
 }
 
 void put(const DeadReckoning& reckoning, ByteWriter& out) {
-    const auto& [T_odometry_cam, R_gyroscope_cam] = reckoning;
+    const auto& [T_odometry_cam, R_gyroscope_cam, sigma] = reckoning;
     putFlag(T_odometry_cam.has_value(), out);
     if (T_odometry_cam) encodePose(*T_odometry_cam, out);
     putFlag(R_gyroscope_cam.has_value(), out);
     if (R_gyroscope_cam) encodePose({*R_gyroscope_cam, Eigen::Vector3d::Zero()}, out);
+    putFlag(sigma.has_value(), out);
+    if (!sigma) return;
+    for (const double s : *sigma) out.put(s);
 }
 
 DeadReckoning getReckoning(ByteReader& in) {
     DeadReckoning reckoning;
     if (getFlag(in)) reckoning.T_odometry_cam = decodePose(in);
     if (getFlag(in)) reckoning.R_gyroscope_cam = decodePose(in).R;
+    if (getFlag(in)) {
+        reckoning.sigma.emplace();
+        for (double& s : *reckoning.sigma) s = getFinite(in);
+    }
     return reckoning;
 }
 

@@ -68,7 +68,10 @@ void MotionPrior::restart(const Frame& frame, const std::optional<SE3>& T_last_c
 void MotionPrior::advance(const Frame& frame, const SE3& T_last_cam, Source source) {
     const double way_m = T_last_cam.t.norm(), turn_rad = T_last_cam.angle();
     const double passed_s = std::max(0.0, frame.stamp_s - last_stamp_s_);
-    if (source != Source::InertiaAlone && wheelsTell(frame)) {
+    if (source != Source::InertiaAlone && frame.reckoning.sigma) {
+        spread_ = {scale_ * located.m + frame.reckoning.sigma->x(),
+                   located.rad + frame.reckoning.sigma->y()};
+    } else if (source != Source::InertiaAlone && wheelsTell(frame)) {
         const double error = std::max(least_wheel_error, wheel_error_);
         spread_.m += (error + spread_.rad) * way_m;
         spread_.rad += error * turn_rad;

@@ -120,4 +120,22 @@ void RecoveryOptions::describe(OptionVisitor& v) {
               "Minimum keypoints with depth to insert such a keyframe or start a submap");
 }
 
+void MotionOptions::describe(OptionVisitor& v) {
+    v.flag("use_imu", use_imu,
+           "Estimate velocity, biases and gravity from the IMU, predict frames by it and cross "
+           "stretches without vision");
+    v.flag("use_wheels", use_wheels, "Let wheel odometry support the IMU in such stretches");
+    v.real("gravity_m_s2", gravity_m_s2, 9.7, 9.9, "m/s^2", "Strength of gravity");
+    v.real("imu_time_offset_s", imu_time_offset_s, -1, 1, "s",
+           "Added to the stamps of the IMU");
+    v.real("least_gyro_noise", least_gyro_noise, 1e-6, 1, "rad/s/sqrt(Hz)",
+           "Smallest density of the gyroscope's noise, which is measured from its readings");
+    v.real("least_accelerometer_noise", least_accelerometer_noise, 1e-5, 10, "m/s^2/sqrt(Hz)",
+           "The same of the accelerometer");
+    v.real("gyro_walk", gyro_walk, 1e-9, 1, "rad/s^2/sqrt(Hz)",
+           "Random walk of the gyroscope's bias");
+    v.real("accelerometer_walk", accelerometer_walk, 1e-8, 10, "m/s^3/sqrt(Hz)",
+           "Random walk of the accelerometer's bias");
+}
+
 }  // namespace rgbd_graphslam

@@ -48,7 +48,8 @@ SlamPipeline::SlamPipeline(const SlamOptions& options, const Rig& rig)
       fallback_(options_.recovery, tracker_),
       relocalizer_(options_, cameras_, map_, closer_, tracker_),
       movers_(cameras_),
-      decision_(options_.keyframes) {}
+      decision_(options_.keyframes),
+      motion_(options_.motion, map_) {}
 
 Frame SlamPipeline::prepare(const std::vector<CameraImage>& images) const {
     Frame frame;
@@ -94,6 +95,7 @@ void SlamPipeline::save(ByteWriter& out) const {
     movers_.save(out);
     decision_.save(out);
     trajectory_.save(out);
+    motion_.save(out);
     uncertainty_.save(out);
     for (const int number : {frames_since_keyframe_, frames_since_loop_}) {
         out.put<std::int32_t>(number);
@@ -113,6 +115,7 @@ void SlamPipeline::load(ByteReader& in) {
     movers_.load(in, map_.keyframes().size());
     decision_.load(in, map_.keyframes().size());
     trajectory_.load(in, map_.keyframes().size());
+    motion_.load(in);
     uncertainty_.load(in, map_.keyframes().size());
     for (int* number : {&frames_since_keyframe_, &frames_since_loop_}) {
         *number = getTally(in);
@@ -129,6 +132,8 @@ TrackedFrame SlamPipeline::track(Frame frame) {
         applyPendingAdjustment();
     if (frames_since_loop_ == options_.mapper.loop_adjustment_delay_frames)
         applyPendingAdjustments();
+    times_.measure("motion", [&] { motion_.note(frame); });
+    trajectory_.revise(motion_.takeRevised(), map_);
     FrameRecord record;
     record.stamp_s = frame.stamp_s;
     if (map_.keyframes().empty()) {
@@ -151,6 +156,12 @@ void SlamPipeline::start(Frame frame, FrameRecord& record) {
     startSubmap(std::move(frame), record);
 }
 
+/** T_cam_world; nothing without an inertial sensor whose biases are known. */
+std::optional<SE3> SlamPipeline::predictedBySensors(const Frame& frame) const {
+    if (!initialized_ || !motion_.predicted()) return std::nullopt;
+    return fallback_.guess(frame).inverse() * trajectory_.lastPose(map_);
+}
+
 /** Nothing before any frame of this run has been located. */
 std::optional<Prediction> SlamPipeline::prediction(const Frame& frame) const {
     if (!initialized_) return std::nullopt;
@@ -163,7 +174,7 @@ std::optional<Prediction> SlamPipeline::prediction(const Frame& frame) const {
 std::optional<LocatedFrame> SlamPipeline::trackBelievably(Frame& frame, FrameRecord& record) {
     record.origin = FrameOrigin::Lost;
     const std::vector<Keypoint> keypoints = frame.keypoints;
-    auto located = tracker_.track(frame);
+    auto located = tracker_.track(frame, predictedBySensors(frame));
     if (!located) return located;
     record.origin = FrameOrigin::Tracked;
     holdStill(frame, *located);
@@ -257,6 +268,11 @@ void SlamPipeline::acceptTracked(Frame frame, LocatedFrame located, FrameRecord&
     record.inliers = located.inliers;
     record.covariance = packed(covarianceAgainstMap(located));
     record.reference_keyframe = reference;
+    if (believed) {
+        motion_.located(located.T_cam_world, covarianceAgainstMap(located), reference);
+    } else {
+        motion_.unlocated();
+    }
     record.T_cam_reference = located.T_cam_world * map_.T_cam_world(reference).inverse();
     tracker_.setLast(std::move(frame), std::move(located), reference, true);
 }
@@ -264,6 +280,7 @@ void SlamPipeline::acceptTracked(Frame frame, LocatedFrame located, FrameRecord&
 /** The map is not seen: the frame is tied to the last one, starts a submap, or is lost. */
 void SlamPipeline::handleTrackingLoss(Frame frame, FrameRecord& record) {
     std::optional<SE3> T_last_cam;
+    const SE3 guess = fallback_.guess(frame);
     if (initialized_ && options_.recovery.dead_reckoning) {
         times_.measure("dead-reckoning",
                        [&] { T_last_cam = fallback_.follow(frame, trajectory_.lastPose(map_)); });
@@ -281,6 +298,14 @@ void SlamPipeline::handleTrackingLoss(Frame frame, FrameRecord& record) {
     record.reference_keyframe = trajectory_.lastReference();
     record.T_cam_reference = T_cam_world * map_.T_cam_world(record.reference_keyframe).inverse();
     record.covariance = packed(covarianceOf(fallback_.prior().spread()));
+    const bool by_sensors = T_last_cam && T_last_cam->t == guess.t && T_last_cam->R == guess.R;
+    if (by_sensors && motion_.predicted()) {
+        T_cam_world = motion_.predicted()->T_cam_world;
+        record.T_cam_reference =
+            T_cam_world * map_.T_cam_world(record.reference_keyframe).inverse();
+        record.covariance = packed(motion_.predicted()->covariance);
+    }
+    motion_.unlocated();
     if (fallback_.shouldStartSubmap(frame, T_last_cam || !initialized_)) {
         return startSubmap(std::move(frame), record);
     }
@@ -307,7 +332,10 @@ void SlamPipeline::startSubmap(Frame frame, FrameRecord& record) {
     const int id = insertKeyframe(
         frame, located, tied ? map_.keyframe(record.reference_keyframe).submap : new_submap, ties);
     located.landmarks = map_.keyframe(id).landmarks;
-    if (!tied) record.origin = FrameOrigin::Tracked;
+    if (!tied) {
+        record.origin = FrameOrigin::Tracked;
+        motion_.forgetPose();
+    }
     record.keyframe = record.reference_keyframe = id;
     record.T_cam_reference = SE3();
     record.covariance = packed(covarianceOf({}));

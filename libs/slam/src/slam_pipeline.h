@@ -7,6 +7,7 @@
 #include "fallback_tracker.h"
 #include "keyframe_decision.h"
 #include "keyframe_edges.h"
+#include "motion_estimator.h"
 #include "mover_watch.h"
 #include "pose_verdict.h"
 #include "relocalizer.h"
@@ -45,6 +46,7 @@ class SlamPipeline {
     std::vector<LandmarkView> landmarks() const;
     const std::vector<PoseEdge>& loops() const { return closer_.loops(); }
     std::vector<FeatureView> features() const { return tracker_.features(); }
+    const MotionSummary& motion() const { return motion_.summary(); }
     MapSnapshot snapshot() const;
     std::vector<VisualSlam::StageTime> stageTimes() const { return times_.all(); }
 
@@ -56,6 +58,7 @@ class SlamPipeline {
     static std::vector<FrameBuilder> buildersFor(const FeatureOptions& features, const Rig& rig);
     Frame build(const std::vector<CameraImage>& images) const;
     void start(Frame frame, FrameRecord& record);
+    std::optional<SE3> predictedBySensors(const Frame& frame) const;
     std::optional<Prediction> prediction(const Frame& frame) const;
     std::optional<LocatedFrame> trackBelievably(Frame& frame, FrameRecord& record);
     void holdStill(const Frame& frame, LocatedFrame& located) const;
@@ -89,6 +92,7 @@ class SlamPipeline {
     MoverWatch movers_;
     KeyframeDecision decision_;
     TrajectoryRecord trajectory_;
+    MotionEstimator motion_;
     MapUncertainty uncertainty_;
     int frames_since_keyframe_ = 0;
     int frames_since_loop_ = 0;

@@ -137,9 +137,9 @@ void Tracker::addMissed(std::vector<FeatureView>& features) const {
     }
 }
 
-std::optional<LocatedFrame> Tracker::track(Frame& frame) {
+std::optional<LocatedFrame> Tracker::track(Frame& frame, const std::optional<SE3>& by_sensors) {
     if (!last_) return std::nullopt;
-    const SE3 predicted = motion_ * lastPose();
+    const SE3 predicted = by_sensors.value_or(motion_ * lastPose());
     for (const double window :
          {options_.tracker.motion_window_px, options_.tracker.wide_window_px}) {
         PoseSolution solution;

@@ -105,6 +105,32 @@ std::vector<TrackedFrame> TrajectoryRecord::views(const SlamMap& map,
     return views;
 }
 
+void TrajectoryRecord::revise(const std::vector<std::pair<double, SE3>>& poses,
+                              const SlamMap& map) {
+    if (poses.size() < 3) return;
+    const auto find = [&](double stamp_s) {
+        return std::lower_bound(
+            records_.begin(), records_.end(), stamp_s,
+            [](const FrameRecord& record, double s) { return record.stamp_s < s; });
+    };
+    std::vector<SE3> corrections(poses.size());
+    for (std::size_t i = 1; i + 1 < poses.size(); ++i) {
+        const auto record = find(poses[i].first);
+        if (record == records_.end()) return;
+        corrections[i] = poses[i].second * record->T_cam_world(map).inverse();
+    }
+    std::size_t next = 1;
+    for (auto record = find(poses.front().first); record != records_.end(); ++record) {
+        while (next < poses.size() && poses[next].first < record->stamp_s) ++next;
+        if (next == poses.size()) break;
+        if (record->origin != FrameOrigin::DeadReckoned || record->keyframe) continue;
+        const double share =
+            (record->stamp_s - poses[next - 1].first) / (poses[next].first - poses[next - 1].first);
+        const SE3 correction = interpolate(corrections[next - 1], corrections[next], share);
+        record->T_cam_reference = correction * record->T_cam_reference;
+    }
+}
+
 void TrajectoryRecord::save(ByteWriter& out) const {
     out.putCount(records_.size());
     for (const FrameRecord& record : records_) put(record, out);

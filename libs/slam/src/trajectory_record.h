@@ -3,6 +3,7 @@
 #include <array>
 #include <deque>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "pose_uncertainty.h"
@@ -45,6 +46,12 @@ class TrajectoryRecord {
     /** T_cam_world of the last frame, or where it was known last; the map must not be empty. */
     SE3 lastPose(const SlamMap& map) const;
     std::vector<TrackedFrame> views(const SlamMap& map, const MapUncertainty& uncertainty) const;
+
+    /** Frames by dead reckoning get the poses that they turn out to have had, those in between are
+     *  bent along.
+     *  \param poses stamps and T_cam_world of some of them, after the last and before the next
+     * frame located by landmarks, which stay */
+    void revise(const std::vector<std::pair<double, SE3>>& poses, const SlamMap& map);
 
     void save(ByteWriter& out) const;
     /** \param keyframes there are

@@ -90,6 +90,10 @@ std::vector<FeatureView> VisualSlam::features() const {
     return pipeline_->features();
 }
 
+const MotionSummary& VisualSlam::motion() const {
+    return pipeline_->motion();
+}
+
 MapSnapshot VisualSlam::snapshot() const {
     return pipeline_->snapshot();
 }

@@ -1,6 +1,7 @@
 /** What comparing a sensor with the camera's tracked motion has shown. */
 #pragma once
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 
 namespace rgbd_graphslam {
@@ -19,6 +20,11 @@ enum class SensorFault {
     Unusable,
 };
 
+/** By how much a sensor's stamps are too late, and its standard deviation, s. */
+struct StampDelay {
+    double delay_s = 0, sigma_s = 0;
+};
+
 /** The fault of a sensor, its evidence, and the correction. */
 struct SensorVerdict {
     SensorFault fault = SensorFault::Undecided;
@@ -31,6 +37,9 @@ struct SensorVerdict {
     bool other_axes_fit = false;
     /** By how much the sensor's stamps are too late, s. */
     double delay_s = 0;
+
+    /** The same as measured, however small, where it can be told. */
+    std::optional<StampDelay> measured_delay;
 
     bool wrong() const { return fault > SensorFault::None; }
 };

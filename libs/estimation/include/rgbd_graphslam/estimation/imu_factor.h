@@ -18,9 +18,10 @@ class ImuFactor final : public Factor {
     ImuFactor(int from, int to, const ImuIncrement& increment, const Eigen::Vector3d& gravity,
               const ImuNoise& noise, const SE3& T_imu_body = {});
 
-    std::vector<StateKey> states() const override {
-        return {poseKey(from_), motionKey(from_), poseKey(to_), motionKey(to_)};
-    }
+    /** Makes gravity an unknown: it is the vector `States::points[point]`, m/s^2. */
+    void estimateGravity(int point) { gravity_point_ = point; }
+
+    std::vector<StateKey> states() const override;
     int residualSize() const override { return 15; }
     bool linearize(const StateBlocks& states, Linearization& out) const override;
 
@@ -28,6 +29,7 @@ class ImuFactor final : public Factor {
     int from_, to_;
     ImuIncrement increment_;
     Eigen::Vector3d gravity_;
+    std::optional<int> gravity_point_;
     SE3 T_imu_body_;
     Eigen::Matrix<double, 15, 15> whitening_ = Eigen::Matrix<double, 15, 15>::Zero();
 };

@@ -3,18 +3,12 @@
 #include <optional>
 #include <vector>
 
+#include "rgbd_graphslam/geometry/motion_samples.h"
 #include "rgbd_graphslam/geometry/se3.h"
 
 namespace rgbd_graphslam {
 
 using Matrix9d = Eigen::Matrix<double, 9, 9>;
-
-/** A reading in the sensor's frame. */
-struct ImuSample {
-    double stamp_s = 0;
-    Eigen::Vector3d gyro = Eigen::Vector3d::Zero();           // rad/s
-    Eigen::Vector3d accelerometer = Eigen::Vector3d::Zero();  // m/s^2, gravity included
-};
 
 /** Constant errors of both sensors. */
 struct ImuBias {

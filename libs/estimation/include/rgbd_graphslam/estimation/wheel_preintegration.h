@@ -4,21 +4,9 @@
 #include <optional>
 #include <vector>
 
+#include "rgbd_graphslam/geometry/motion_samples.h"
+
 namespace rgbd_graphslam {
-
-/** A pose in the plane: x forward and y left (m), yaw (rad, counterclockwise). */
-struct PlanarPose {
-    double x = 0, y = 0, yaw = 0;
-
-    PlanarPose operator*(const PlanarPose& other) const;
-    PlanarPose inverse() const;
-};
-
-/** Where wheels tell that the robot is since they were switched on. */
-struct WheelSample {
-    double stamp_s = 0;
-    PlanarPose T_start_base;
-};
 
 /** Variances that grow with the way. */
 struct WheelNoise {

@@ -8,6 +8,7 @@
 #include "rgbd_graphslam/features/dense_view.h"
 #include "rgbd_graphslam/features/descriptor.h"
 #include "rgbd_graphslam/features/patch.h"
+#include "rgbd_graphslam/geometry/motion_samples.h"
 #include "rgbd_graphslam/geometry/se3.h"
 
 namespace rgbd_graphslam {
@@ -62,6 +63,17 @@ class KeypointGrid {
 struct DeadReckoning {
     std::optional<SE3> T_odometry_cam;
     std::optional<Eigen::Matrix3d> R_gyroscope_cam;
+    /** Standard deviations (m, rad) of T_odometry_cam since the map was seen last, where more than
+     *  the wheels tells it. */
+    std::optional<Eigen::Vector2d> sigma;
+};
+
+/** What other sensors read since the frame before, and up to this frame. */
+struct MotionReadings {
+    std::vector<ImuSample> imu;
+    SE3 T_imu_cam;
+    std::vector<WheelSample> wheels;
+    SE3 T_base_cam;
 };
 
 /** Features of the images that a rig took at one moment; position i of every list is keypoint i. */
@@ -76,6 +88,8 @@ struct Frame {
      * frames are tracked without. Not valid in keyframes. */
     std::shared_future<DenseView> view;
     DeadReckoning reckoning;
+    /** Until the frame is tracked. */
+    MotionReadings readings;
 };
 
 /** Adds what another camera saw at the same moment. \param camera its number, > 0

@@ -33,8 +33,9 @@ struct StreamedFrame {
     /** What other cameras took at the same moment, by rising number of the camera. */
     std::vector<std::pair<int, mrpt::obs::CObservation3DRangeScan::Ptr>> others;
     Frame prepared;
-    /** Goes into the prepared frame. */
+    /** Go into the prepared frame. */
     DeadReckoning reckoning;
+    MotionReadings readings;
 };
 
 /** How many threads the process may use, the one that fetches frames included, and how many frames

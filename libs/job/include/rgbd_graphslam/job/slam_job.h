@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "rgbd_graphslam/dataset/sensor_verdict.h"
 #include "rgbd_graphslam/input/sensor_census.h"
 #include "rgbd_graphslam/job/job_options.h"
 #include "rgbd_graphslam/job/run_quality.h"
@@ -77,6 +78,9 @@ struct JobReport {
     /** Of the sensors that were used, where it was measured. */
     std::vector<SensorFigures> sensor_figures;
     RunQuality quality;
+    MotionSummary motion;
+    /** Of the gyroscope's stamps; nothing where the camera hardly turned. */
+    std::optional<StampDelay> imu_delay;
     /** In such parts. */
     std::vector<int> disconnected_keyframes;
     /** Of a map that was extended. */

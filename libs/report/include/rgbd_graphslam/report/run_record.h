@@ -61,6 +61,11 @@ struct SensorUse {
     std::optional<double> residual_m, whitened;
 };
 
+/** What summary.json says of inertial sensor and wheels, as figures and what they mean. */
+struct MotionFigure {
+    std::string sensor, figure, value;
+};
+
 /** All that the report needs of an output folder. */
 struct RunRecord {
     RunOrigin origin;
@@ -78,6 +83,8 @@ struct RunRecord {
     std::vector<LoopRecord> loops;
     QualityRecord quality;
     std::vector<SensorUse> sensors;
+    /** Empty without such sensors and of runs of earlier versions. */
+    std::vector<MotionFigure> motion;
     /** How many have an error that only a wrong place explains; nothing without truth. */
     std::optional<std::size_t> false_loops;
 

@@ -107,6 +107,22 @@ struct RecoveryOptions : Options {
     void describe(OptionVisitor& v) override;
 };
 
+/** Section `[MotionOptions]`. */
+struct MotionOptions : Options {
+    bool use_imu = true;
+    bool use_wheels = true;
+    double gravity_m_s2 = 9.81;
+    double imu_time_offset_s = 0;
+    double least_gyro_noise = 1e-4;
+    double least_accelerometer_noise = 2e-3;
+    double gyro_walk = 3e-5;
+    double accelerometer_walk = 6e-4;
+
+    const char* section() const override { return "MotionOptions"; }
+    const char* about() const override { return "Inertial sensors and wheels"; }
+    void describe(OptionVisitor& v) override;
+};
+
 /** Everything VisualSlam can be told. */
 struct SlamOptions {
     FeatureOptions features;
@@ -116,11 +132,13 @@ struct SlamOptions {
     MapperOptions mapper;
     LoopOptions loops;
     RecoveryOptions recovery;
+    MotionOptions motion;
     PoseGraphOptions pose_graph;
 
     /** For IniFile::load and toIniText. */
     std::vector<Options*> all() {
-        return {&features, &sensor, &tracker, &keyframes, &mapper, &loops, &recovery, &pose_graph};
+        return {&features, &sensor,   &tracker, &keyframes, &mapper,
+                &loops,    &recovery, &motion,  &pose_graph};
     }
 };
 

@@ -39,8 +39,10 @@ class Tracker {
     Tracker(const SlamOptions& options, const RigCameras& cameras, SlamMap& map);
 
     /** \param frame keypoints move to the exact places of the landmarks that they show
+     *  \param predicted T_cam_world; nothing: the camera moves on as it did
      *  \return nothing when fewer than `min_inliers` landmarks agree with any pose */
-    std::optional<LocatedFrame> track(Frame& frame);
+    std::optional<LocatedFrame> track(Frame& frame,
+                                      const std::optional<SE3>& predicted = std::nullopt);
 
     /** Pose by the points of the last frame alone, for where the map is not seen.
      *  \param predicted T_cam_world

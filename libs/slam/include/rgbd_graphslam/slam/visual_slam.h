@@ -14,6 +14,7 @@
 #include "rgbd_graphslam/geometry/trajectory.h"
 #include "rgbd_graphslam/slam/feature_view.h"
 #include "rgbd_graphslam/slam/map_snapshot.h"
+#include "rgbd_graphslam/slam/motion_summary.h"
 #include "rgbd_graphslam/slam/slam_options.h"
 
 namespace rgbd_graphslam {
@@ -156,6 +157,9 @@ class VisualSlam {
     const std::vector<PoseEdge>& loops() const;
     /** Of the last frame; none when it is lost. */
     std::vector<FeatureView> features() const;
+
+    /** What is known of inertial sensor and wheels so far. */
+    const MotionSummary& motion() const;
 
     /** The map for another run; finish() first. */
     MapSnapshot snapshot() const;
