@@ -10,6 +10,7 @@ constexpr double kPane_m = 20;  // along the corridor of the storey
 
 Quad pane() {
     Quad quad;
+    quad.uv.fill(Eigen::Vector2d::Zero());  // never drawn
     quad.corners = {Eigen::Vector3d(kPane_m, 0, 0), Eigen::Vector3d(kPane_m, 2.2, 0),
                     Eigen::Vector3d(kPane_m, 2.2, 2.4), Eigen::Vector3d(kPane_m, 0, 2.4)};
     return quad;

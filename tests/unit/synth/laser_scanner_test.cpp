@@ -56,6 +56,7 @@ TEST(LaserScanner, noiseIsThatOfTheModelAndRepeatable) {
 TEST(LaserScanner, glassIsSeenWhereBeamsMeetItSteeply) {
     Room room;
     Quad pane;
+    pane.uv.fill(Eigen::Vector2d::Zero());
     pane.corners = {Eigen::Vector3d(4, 0, 0), Eigen::Vector3d(4, 4, 0), Eigen::Vector3d(4, 4, 2),
                     Eigen::Vector3d(4, 0, 2)};
     room.world.panes = {pane};
