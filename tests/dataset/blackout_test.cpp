@@ -29,7 +29,7 @@ void PrintTo(const BlackoutCase& blackout, std::ostream* out) {
 double longestStep(const std::string& path) {
     std::ifstream file(path);
     std::string line;
-    Eigen::Vector3d last;
+    Eigen::Vector3d last = Eigen::Vector3d::Zero();
     double longest = 0;
     for (bool first = true; std::getline(file, line);) {
         if (line.empty() || line[0] == '#') continue;

@@ -18,7 +18,7 @@ RawlogMark markOf(const std::string& rawlog);
 
 struct Checkpoint {
     /** Of the file and of `state`; `fuzz_replay` holds a state of it. */
-    static constexpr std::uint32_t format = 7;
+    static constexpr std::uint32_t format = 8;
 
     /** Where it came to; its settings and its rawlog are the run's. */
     SlamJob job;

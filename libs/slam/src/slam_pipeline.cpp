@@ -269,7 +269,8 @@ void SlamPipeline::acceptTracked(Frame frame, LocatedFrame located, FrameRecord&
     record.covariance = packed(covarianceAgainstMap(located));
     record.reference_keyframe = reference;
     if (believed) {
-        motion_.located(located.T_cam_world, covarianceAgainstMap(located), reference);
+        motion_.located(located.T_cam_world, uncertainty_.scale() * covarianceAgainstMap(located),
+                        reference);
     } else {
         motion_.unlocated();
     }

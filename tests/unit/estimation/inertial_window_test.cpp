@@ -155,8 +155,9 @@ TEST(InertialWindow, propagatesErrorsAsTheyAre) {
         EXPECT_LT((moved.minus(to) - carried.F * off).norm(), 1e-8) << "axis " << axis;
     }
     // What the readings add is the increment's own covariance, in other coordinates.
-    EXPECT_NEAR(carried.Q.block<3, 3>(3, 3).trace(),
-                increment->covariance.block<3, 3>(3, 3).trace(), 1e-9);
+    const double added = carried.Q.block<3, 3>(3, 3).trace(),
+                 measured = increment->covariance.block<3, 3>(3, 3).trace();
+    EXPECT_NEAR(added, measured, 1e-9);
 }
 
 }  // namespace
