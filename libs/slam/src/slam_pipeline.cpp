@@ -156,9 +156,11 @@ void SlamPipeline::start(Frame frame, FrameRecord& record) {
     startSubmap(std::move(frame), record);
 }
 
-/** T_cam_world; nothing without an inertial sensor whose biases are known. */
+/** T_cam_world, after frames without sight of the map: while it is seen, the motion of the last
+ *  frames predicts as well, and without the delay and noise of another sensor. Nothing without an
+ *  inertial sensor whose biases are known. */
 std::optional<SE3> SlamPipeline::predictedBySensors(const Frame& frame) const {
-    if (!initialized_ || !motion_.predicted()) return std::nullopt;
+    if (!initialized_ || trajectory_.lastSawMap() || !motion_.predicted()) return std::nullopt;
     return fallback_.guess(frame).inverse() * trajectory_.lastPose(map_);
 }
 

@@ -43,6 +43,10 @@ class TrajectoryRecord {
 
     /** 0 before any frame. */
     int lastReference() const { return records_.empty() ? 0 : records_.back().reference_keyframe; }
+    /** Whether the map was seen by the last frame. */
+    bool lastSawMap() const {
+        return !records_.empty() && records_.back().origin == FrameOrigin::Tracked;
+    }
     /** T_cam_world of the last frame, or where it was known last; the map must not be empty. */
     SE3 lastPose(const SlamMap& map) const;
     std::vector<TrackedFrame> views(const SlamMap& map, const MapUncertainty& uncertainty) const;
