@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "calibration_board.h"
 #include "deceits.h"
 #include "filming.h"
 #include "places.h"
@@ -223,7 +222,6 @@ const std::vector<Scenario>& scenarios() {
         blackout(),
         blackoutRobot(),
         wheelSlip(),
-        board(),
         glassCorridor(),
     };
     return all;

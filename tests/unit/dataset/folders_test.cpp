@@ -212,7 +212,7 @@ TEST_F(Phone, strayScannersVideoAndDamage) {
                 }),
                 HasSubstr("confidence/000001.png' is missing"));
     folder_.write("s/camera_matrix.csv", "30.0, 0, 15.5\n");
-    EXPECT_THAT(problemOf([&] { read(SequenceLayout::StrayScanner); }), HasSubstr("no 3x3 matrix"));
+    EXPECT_THAT(problemOf([&] { read(SequenceLayout::StrayScanner); }), HasSubstr("is not a 3x3 matrix"));
     folder_.write("s/odometry.csv", "timestamp, frame\n1.0, x\n");
     EXPECT_THAT(problemOf([&] { read(SequenceLayout::StrayScanner); }),
                 HasSubstr("odometry.csv:2: 'x' is not a number"));

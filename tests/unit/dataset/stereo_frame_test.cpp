@@ -154,7 +154,7 @@ TEST_F(StereoFrames, standForTheirPairs) {
     EXPECT_EQ(tracked.gray.cols, camera.model.width);
     const RgbdImage mapped = toRgbdImage(frame);
     EXPECT_EQ(mapped.depth.size(), tracked.gray.size());
-    EXPECT_EQ(mapped.depth_unit_m, frame->rangeUnits);
+    EXPECT_FLOAT_EQ(static_cast<float>(mapped.depth_unit_m), frame->rangeUnits);
 }
 
 TEST_F(StereoFrames, ofColorCamerasAreGrayAndColored) {

@@ -131,7 +131,7 @@ TEST(DamagedState, smallImagesAreOfTheCamera) {
             out.putCount(2);
             for (int pixel = 0; pixel < 2; ++pixel) out.put(1.0f);
         }
-        for (int reckoning = 0; reckoning < 2; ++reckoning) putFlag(false, out);
+        for (int reckoning = 0; reckoning < 3; ++reckoning) putFlag(false, out);
         for (int pose = 0; pose < 2; ++pose) encodePose(SE3(), out);
         for (int stamp = 0; stamp < 2; ++stamp) out.put(1.0);
     });

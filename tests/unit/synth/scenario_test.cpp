@@ -65,11 +65,11 @@ INSTANTIATE_TEST_SUITE_P(All, EveryScenario,
                                          "dark", "long-run", "crowd", "follow-me", "door",
                                          "chair-moved", "pushed-cart", "starts-in-crowd", "lift",
                                          "under-desk", "ceiling-lamp", "arm-in-view", "dirty-lens",
-                                         "blackout", "blackout-robot", "wheel-slip", "board",
+                                         "blackout", "blackout-robot", "wheel-slip",
                                          "glass-corridor"));
 
 TEST(Scenario, TheListHoldsAllThatAreTested) {
-    EXPECT_EQ(scenarios().size(), 26u);
+    EXPECT_EQ(scenarios().size(), 25u);
 }
 
 TEST(Scenario, AnUnknownNameIsAnErrorThatListsTheNames) {
