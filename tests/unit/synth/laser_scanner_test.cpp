@@ -12,6 +12,8 @@ namespace {
  *  +x. */
 struct Room {
     Room() {
+        constexpr double tile_m = 1;
+        scene.addMaterial(cv::Mat(4, 4, CV_8UC3, cv::Scalar::all(128)), tile_m);
         addBox(scene, scene.quads, standing(3, 2, 0, 0), {6, 4, 2.5}, BoxSkin(Skin{0}));
         addBox(scene, scene.quads, standing(4, 2, 0, 0), {0.5, 0.5, 0.2}, BoxSkin(Skin{0}));
         world.motion.T_world_base = [](double) {
@@ -36,10 +38,10 @@ ScannerModel exact() {
 TEST(LaserScanner, measuresWallsAndSeesOverLowThings) {
     const auto ranges = Room().scan(exact());
     ASSERT_EQ(ranges.size(), 1081u);
-    EXPECT_NEAR(ranges[540], 3, 1e-9);        // ahead, from x = 3
-    EXPECT_NEAR(ranges[540 + 360], 2, 1e-9);  // left
-    EXPECT_NEAR(ranges[540 - 360], 2, 1e-9);  // right
-    EXPECT_NEAR(ranges[540 + 120], 2 / std::sin(M_PI / 6), 1e-9);
+    EXPECT_NEAR(ranges[540], 3, 1e-9);                             // ahead, from x = 3
+    EXPECT_NEAR(ranges[540 + 360], 2, 1e-9);                       // left
+    EXPECT_NEAR(ranges[540 - 360], 2, 1e-9);                       // right
+    EXPECT_NEAR(ranges[540 + 120], 3 / std::cos(M_PI / 6), 1e-9);  // the wall ahead, at 30 degrees
 }
 
 TEST(LaserScanner, noiseIsThatOfTheModelAndRepeatable) {
