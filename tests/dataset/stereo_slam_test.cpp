@@ -38,7 +38,7 @@ TEST(SlamOfAStereoCamera, isNearlyAsExactAsOfAnRgbdCamera) {
     const double ate_m = by_stereo["ate"]["rmse_m"], other_m = by_depth["ate"]["rmse_m"];
     std::printf("ATE %.4f m, of an RGB-D camera %.4f m\n", ate_m, other_m);
     EXPECT_LE(ate_m, 1.5 * other_m + 0.002);
-    for (const char* map : {"points.ply", "octree.bt", "map.yaml", "report.html"}) {
+    for (const char* map : {"points.ply", "octree.bt", "grid.yaml", "report.html"}) {
         EXPECT_TRUE(fs::exists(out / ("stereo/" + std::string(map)))) << map;
     }
 }
