@@ -58,22 +58,27 @@ void PrintTo(const LensCase& lens, std::ostream* out) {
 
 class SlamThroughLenses : public ::testing::TestWithParam<LensCase> {};
 
+/** A film as another lens would have taken it, in a folder with its calibration. */
+void filmThrough(const LensCase& lens, const std::string& film, const std::string& to) {
+    fs::create_directories(to);
+    CameraSetup setup = readCameraFile(film + "/camera.ini");
+    const CameraModel pinhole = setup.camera;
+    setup.camera.fx = setup.camera.fy = lens.focal_px;
+    setup.camera.lens = lens.lens;
+    warpImages(film, to, lookupTable(pinhole, setup.camera));
+    for (const auto& entry : fs::directory_iterator(film)) {
+        if (entry.path().extension() == ".txt")
+            fs::copy_file(entry.path(), fs::path(to) / entry.path().filename());
+    }
+    std::ofstream(to + "/camera.ini") << toIniText(setup);
+}
+
 TEST_P(SlamThroughLenses, isAsExactAsThroughAPinhole) {
     const std::string film = filmOf("office", "--frames 90 --size 320x240");
     if (HasFatalFailure()) return;
     const TestFolder folder;
     const std::string warped = folder / "warped";
-    fs::create_directories(warped);
-    CameraSetup setup = readCameraFile(film + "/camera.ini");
-    const CameraModel pinhole = setup.camera;
-    setup.camera.fx = setup.camera.fy = GetParam().focal_px;
-    setup.camera.lens = GetParam().lens;
-    warpImages(film, warped, lookupTable(pinhole, setup.camera));
-    for (const auto& entry : fs::directory_iterator(film)) {
-        if (entry.path().extension() == ".txt")
-            fs::copy_file(entry.path(), fs::path(warped) / entry.path().filename());
-    }
-    std::ofstream(warped + "/camera.ini") << toIniText(setup);
+    filmThrough(GetParam(), film, warped);
     const std::string rawlog = folder / "warped.rawlog";
     runOrFail("rgbd-import", "'" + warped + "' '" + rawlog + "' -q");
     if (HasFatalFailure()) return;
@@ -96,6 +101,31 @@ INSTANTIATE_TEST_SUITE_P(
                       LensCase{"kannalaBrandt", 310,
                                KannalaBrandtLens{{-0.0027, 0.0387, -0.0365, 0.0062}}}),
     [](const auto& param_info) { return param_info.param.name; });
+
+/** What the import says to a calibration with or without the lens. */
+std::string importWarnings(const std::string& film, bool lens_known) {
+    const TestFolder folder;
+    const std::string warped = folder / "warped";
+    filmThrough({"barrel", 290, BrownLens{{-0.2}}}, film, warped);
+    if (!lens_known) {
+        CameraSetup setup = readCameraFile(warped + "/camera.ini");
+        setup.camera.lens = {};
+        std::ofstream(warped + "/camera.ini") << toIniText(setup);
+    }
+    const ProgramResult result =
+        runProgram("rgbd-import", "'" + warped + "' '" + folder / "warped.rawlog" + "'");
+    EXPECT_EQ(result.exit_code, 0);
+    return result.err;
+}
+
+TEST(ImportThroughALens, aMissingLensIsNamed) {
+    const std::string film = filmOf("office", "--frames 90 --size 320x240");
+    if (HasFatalFailure()) return;
+    const std::string unknown = importWarnings(film, false);
+    EXPECT_NE(unknown.find("lens with k1 = -0."), std::string::npos) << unknown;
+    EXPECT_NE(unknown.find("'dist' in camera.ini"), std::string::npos) << unknown;
+    EXPECT_EQ(importWarnings(film, true).find("lens with k1"), std::string::npos);
+}
 
 }  // namespace
 }  // namespace rgbd_graphslam

@@ -35,7 +35,7 @@ DepthStamps depthStampsOf(const std::vector<FramePair>& pairs) {
     return stamps;
 }
 
-/** Over a sequence, so many frames are looked at for how depth lies to color. */
+/** Over a sequence, so many frames are looked at for how depth lies to color, and for the lens. */
 constexpr std::size_t frames_checked = 20;
 
 /** What is wrong with depth's unit, and which would be plausible; empty when nothing is.
@@ -94,6 +94,7 @@ class Import {
           source_(sequence, setup, options, pairs_),
           setup_(source_.setup()),
           lag_(pairs_.size()),
+          lens_(setup_.camera),
           sensors_(sensorEntries(sequence, setup, report_)) {
         judgeCalibration();
     }
@@ -124,6 +125,7 @@ class Import {
         }
         report_.notes.insert(report_.notes.end(), source_.notes().begin(), source_.notes().end());
         judgeRegistration();
+        judgeLens();
         judgeDepthUnit();
         if (options_.strict && !report_.warnings.empty()) {
             throw Error(report_.warnings.front(),
@@ -153,7 +155,10 @@ class Import {
             return;
         }
         const std::size_t stride = std::max<std::size_t>(1, pairs_.size() / frames_checked);
-        if (report_.frames % stride == 0) registration_.add(loaded.color, loaded.depth);
+        if (report_.frames % stride == 0) {
+            registration_.add(loaded.color, loaded.depth);
+            lens_.add(loaded.color);
+        }
         lag_.add(pair.color.stamp_s, loaded.color, loaded.depth);
         depth_histogram_.add(loaded.depth);
         converted_ += loaded.converted;
@@ -207,6 +212,14 @@ class Import {
         }
     }
 
+    void judgeLens() {
+        report_.lens_distortion = lens_.finding();
+        if (!report_.lens_distortion) return;
+        report_.warnings.push_back(toText(*report_.lens_distortion) +
+                                   "; give the lens of this camera as 'dist' in camera.ini, from a "
+                                   "calibration with focal length and lens together");
+    }
+
     void judgeDepthUnit() {
         report_.depth_summary = summarize(depth_histogram_, setup_.depthUnitInMetres());
         const double units = 1 / setup_.depthUnitInMetres();
@@ -241,6 +254,7 @@ class Import {
     const CameraSetup& setup_;
     RegistrationCheck registration_;
     LagCheck lag_;
+    LensCheck lens_;
     DepthHistogram depth_histogram_;
     SensorFeed sensors_;
 };

@@ -9,6 +9,7 @@
 #include "rgbd_graphslam/dataset/camera_file.h"
 #include "rgbd_graphslam/dataset/depth_statistics.h"
 #include "rgbd_graphslam/dataset/lag_check.h"
+#include "rgbd_graphslam/dataset/lens_check.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
 #include "rgbd_graphslam/dataset/registration_check.h"
 #include "rgbd_graphslam/dataset/rgbd_sequence.h"
@@ -75,6 +76,8 @@ struct ImportReport {
      *  explains the images better. Nothing when it lies well or nothing can be told. */
     std::optional<Misregistration> misregistration;
     std::optional<DepthLag> depth_lag;
+    /** Distortion that the calibration leaves in the color images; never of a fisheye's. */
+    std::optional<LensDistortion> lens_distortion;
     /** Stamps of the first and last frame, UNIX time. */
     double first_stamp_s = 0, last_stamp_s = 0;
     /** Between two frames that follow each other. */
