@@ -20,8 +20,7 @@ constexpr double usual_deviation_px2 = 0.05, most_deviation_px2 = 0.3;
 constexpr std::size_t points_per_edge = 48;
 
 constexpr std::size_t fewest_frames = 8, fewest_bins = 15;
-constexpr double smallest_share = 0.01, smallest_k1 = 0.03, least_sigmas = 6,
-                 least_straight = 0.6;
+constexpr double smallest_share = 0.01, smallest_k1 = 0.03, least_sigmas = 6, least_straight = 0.6;
 
 constexpr int directions = 12, offsets = 12;
 
@@ -31,7 +30,9 @@ bool isFisheye(const CameraModel& camera) {
     return std::holds_alternative<KannalaBrandtLens>(camera.intrinsics().lens);
 }
 
-double triedK1(int i) { return -LensCheck::reach + i * LensCheck::step; }
+double triedK1(int i) {
+    return -LensCheck::reach + i * LensCheck::step;
+}
 
 /** Some points of an edge on the plane at distance 1, without the calibrated lens. */
 Points normalized(const EdgePoints& edge, const CameraModel& camera) {
@@ -86,8 +87,8 @@ std::size_t binOf(const EdgePoints& edge, const CameraModel& camera) {
     Eigen::Vector3d line = a.cross(b);
     if (line.y() < 0) line = -line;
     const double direction = std::atan2(line.y(), line.x()) / M_PI;
-    const double offset = line.z() / line.head<2>().norm() /
-                          (0.5 * camera.width / camera.pixelsPerRadian().x());
+    const double offset =
+        line.z() / line.head<2>().norm() / (0.5 * camera.width / camera.pixelsPerRadian().x());
     const int row = std::min(directions - 1, int(direction * directions));
     const int column = std::clamp(int((offset + 1) / 2 * offsets), 0, offsets - 1);
     return static_cast<std::size_t>(row * offsets + column);
