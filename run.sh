@@ -7,7 +7,7 @@ build=build/release
 # What the programs need, and what packages, tests and benchmarks need besides.
 build_packages=(
     g++ cmake ninja-build
-    libmrpt-graphslam-dev libmrpt-nav-dev libmrpt-nanogui-dev
+    libmrpt-graphslam-dev libmrpt-nav-dev libmrpt-nanogui-dev libmrpt-hwdrivers-dev
     libeigen3-dev libopencv-dev libceres-dev liboctomap-dev
     libcli11-dev nlohmann-json3-dev libarchive-dev libsqlite3-dev libjpeg-dev zlib1g-dev
     libcurl4-openssl-dev libnanoflann-dev gnuplot-nox

@@ -1,11 +1,13 @@
-/** rgbd-slam: a rawlog in, a folder with trajectory, graph and maps out. */
+/** rgbd-slam: a rawlog or live sensors in, a folder with trajectory, graph and maps out. */
 #include <cstdio>
+#include <memory>
 
 #include "command_line.h"
 #include "configured_input.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/job/slam_job.h"
+#include "rgbd_graphslam/sensors/live_sensors.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -16,8 +18,10 @@ constexpr int interrupted_exit_code = 130;
 struct Arguments {
     ConfiguredInput rawlog;
     std::string out_folder, map_folder, resume_folder, sensor_label;
+    std::string live_ini, record;
     std::vector<std::string> assignments;
     int threads = 0, max_frames = 0;
+    double duration_s = 0;
     bool localize = false, extend = false;
     bool strict = false, no_maps = false, profile = false, view = false, print_config = false;
 };
@@ -55,6 +59,21 @@ void declare(CLI::App& app, Arguments& args) {
             ->type_name("N");
     auto* const no_maps =
         app.add_flag("--no-maps", args.no_maps, "As --set RunOptions.dense_maps=false");
+    auto* const live = app.add_option("--live", args.live_ini,
+                                      "Read the sensors of this ini file, as rawlog-grabber does, "
+                                      "in place of a rawlog, until Ctrl-C")
+                           ->type_name("INI");
+    auto* const record =
+        app.add_option("--record", args.record,
+                       "With --live: write the rawlog here (default: OUT/record.rawlog, or none "
+                       "with --no-maps)")
+            ->type_name("RAWLOG")
+            ->needs(live);
+    auto* const duration =
+        app.add_option("--duration", args.duration_s, "With --live: end after so many seconds")
+            ->type_name("S")
+            ->check(CLI::PositiveNumber)
+            ->needs(live);
     app.add_flag("--view", args.view,
                  "Watch the run in a window, as rgbd-viewer --follow OUT does");
     app.add_flag("--profile", args.profile, "Print the CPU time of each stage");
@@ -66,12 +85,14 @@ void declare(CLI::App& app, Arguments& args) {
                        "settings and rawlog")
             ->type_name("DIR");
     for (auto* const other : args.rawlog.options()) resume->excludes(other);
-    for (auto* const other : {out, map, sensor, strict, set, max_frames, no_maps}) {
+    for (auto* const other :
+         {out, map, sensor, strict, set, max_frames, no_maps, live, record, duration}) {
         resume->excludes(other);
     }
     declareExamples(app, {"rgbd-slam office.rawlog -o office",
                           "rgbd-slam desk.rawlog -o desk --config ini/realsense_d435.ini",
-                          "rgbd-slam office2.rawlog -o office2 --map office --localize"});
+                          "rgbd-slam office2.rawlog -o office2 --map office --localize",
+                          "rgbd-slam --live ini/live-openni2.ini -o now --view"});
     declareCommonOptions(app);
 }
 
@@ -97,6 +118,27 @@ Error missingArgument(const std::string& name) {
     return Error("missing argument " + name + ". Usage: rgbd-slam RAWLOG -o OUT");
 }
 
+/** Where the rawlog of a live run is, if there is one. */
+std::string recordOf(const Arguments& args) {
+    if (!args.rawlog.input().empty()) {
+        throw Error("both --live and the rawlog '" + args.rawlog.input() + "' are given",
+                    "leave one of them out");
+    }
+    return args.record.empty() ? args.out_folder + "/record.rawlog" : args.record;
+}
+
+/** Starts the sensors and makes them the job's source. */
+std::unique_ptr<LiveSensors> startSensors(const Arguments& args, SlamJob& job) {
+    if (args.live_ini.empty()) return nullptr;
+    const SensorFile file = readSensorFile(args.live_ini);
+    job.live =
+        std::make_shared<LiveSource>(job.options.live, "the live input of '" + args.live_ini + "'");
+    const bool for_maps = job.options.run.dense_maps && !job.localizes();
+    if (for_maps || !args.record.empty()) job.live->recordTo(job.rawlog);
+    if (args.duration_s > 0) job.live->endAfter(args.duration_s);
+    return std::make_unique<LiveSensors>(file, job.live);
+}
+
 SlamJob jobOf(const CLI::App& app, const Arguments& args) {
     if (!args.resume_folder.empty()) {
         SlamJob job = resumedJob(args.resume_folder);
@@ -107,7 +149,7 @@ SlamJob jobOf(const CLI::App& app, const Arguments& args) {
         return job;
     }
     const JobOptions options = optionsOf(app, args);
-    const std::string rawlog = args.rawlog.input();
+    const std::string rawlog = args.live_ini.empty() ? args.rawlog.input() : recordOf(args);
     if (rawlog.empty()) throw missingArgument("RAWLOG");
     if (args.out_folder.empty()) throw missingArgument("-o OUT");
     if (!args.map_folder.empty() && !args.localize && !args.extend) {
@@ -130,7 +172,8 @@ int run(const CLI::App& app, const Arguments& args) {
         std::fputs(configText(optionsOf(app, args)).c_str(), stdout);
         return 0;
     }
-    const SlamJob job = jobOf(app, args);
+    SlamJob job = jobOf(app, args);
+    const auto sensors = startSensors(args, job);
     const JobReport report = runSlamJob(job);
     if (args.profile) std::fputs((profileTable(report) + "\n").c_str(), stdout);
     std::fputs(resultTable(job, report).c_str(), stdout);
@@ -145,8 +188,10 @@ int run(const CLI::App& app, const Arguments& args) {
 int main(int argc, char** argv) {
     using namespace rgbd_graphslam;
     CLI::App app(
-        "RGB-D SLAM on an MRPT rawlog: trajectory, pose graph, points, octree, grid. Exit codes: 0 "
-        "success, 1 error, 3 stopped by max_keyframes or max_memory_mb, 130 Ctrl-C",
+        "RGB-D SLAM on an MRPT rawlog or live sensors: trajectory, pose graph, points, octree, "
+        "grid. Exit codes: 0 "
+        "success (also of live sensors ended by Ctrl-C), 1 error, 3 stopped by max_keyframes or "
+        "max_memory_mb, 130 Ctrl-C",
         "rgbd-slam");
     Arguments args;
     declare(app, args);

@@ -43,7 +43,8 @@ to import, evaluate, view and export are included.")
 set(CPACK_DEBIAN_DEV_PACKAGE_NAME librgbd-graphslam-dev)
 set(CPACK_DEBIAN_DEV_PACKAGE_SECTION libdevel)
 string(CONCAT CPACK_DEBIAN_DEV_PACKAGE_DEPENDS
-    "libmrpt-graphslam-dev, libmrpt-nav-dev, libmrpt-nanogui-dev, libeigen3-dev, libopencv-dev, "
+    "libmrpt-graphslam-dev, libmrpt-nav-dev, libmrpt-nanogui-dev, libmrpt-hwdrivers-dev, "
+    "libeigen3-dev, libopencv-dev, "
     "libceres-dev, liboctomap-dev, nlohmann-json3-dev, libarchive-dev, libsqlite3-dev, "
     "zlib1g-dev, libcurl4-openssl-dev, libglfw3-dev, libgl-dev, libopengl-dev")
 set(CPACK_COMPONENT_DEV_DESCRIPTION

@@ -3,7 +3,7 @@
 cmake_minimum_required(VERSION 3.22)
 
 set(layers core geometry metrics live dataset report synth features estimation laser fusion slam mapping evaluation navigation
-    input graphslam job export viewer benchmark)
+    input sensors graphslam job export viewer benchmark)
 # These know nothing of rawlogs, and of MRPT no more than what `core` shows them.
 set(pure features estimation slam)
 set(pure_may_include core geometry features estimation slam)

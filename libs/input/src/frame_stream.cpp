@@ -54,7 +54,7 @@ void checkStamp(const CObservation3DRangeScan& frame, std::size_t index) {
 
 class FrameStream::Implementation {
   public:
-    Implementation(std::unique_ptr<ObservationSource> source, const ReadAhead& ahead,
+    Implementation(std::shared_ptr<ObservationSource> source, const ReadAhead& ahead,
                    const std::string& sensor_label)
         : threads_(ahead.threads),
           sensor_label_(sensor_label),
@@ -107,6 +107,15 @@ class FrameStream::Implementation {
         return coming->get();
     }
 
+    void noteTracked(const StreamedFrame& frame) {
+        const auto note = [&](const CObservation3DRangeScan& image) {
+            source_->noteTracked(image.sensorLabel, image.timestamp);
+        };
+        note(*frame.observation);
+        for (const auto& [camera, observation] : frame.others) note(*observation);
+    }
+
+    std::size_t surveyFrames(std::size_t usual) const { return source_->surveyFrames(usual); }
     const Rig& rig() const { return rig_; }
     const CObservation3DRangeScan& firstFrame() const { return *first_; }
     const StageTimes& times() const { return times_; }
@@ -128,7 +137,7 @@ class FrameStream::Implementation {
             throw Error(source_->name() +
                             " has no RGB-D frame (CObservation3DRangeScan) and no stereo pair" +
                             holds,
-                        "import a sequence with rgbd-import");
+                        source_->cameraRemedy());
         }
         throw Error(source_->name() + " has no RGB-D camera '" + sensor_label_ + "'" + holds,
                     "give --sensor the label of an RGB-D camera, or leave it out");
@@ -186,8 +195,9 @@ class FrameStream::Implementation {
         if (!frame) return frame;
         frame->index = frames_read_++;
         if (rig_.cameras.size() == 1) return frame;
-        while (auto other = peek()) {
-            if (!isOfSameMoment(*frame, *other)) break;
+        while (frame->others.size() + 1 < rig_.cameras.size()) {
+            auto* const other = peek();
+            if (!other || !isOfSameMoment(*frame, *other)) break;
             add(std::move(*other), *frame);
             read_.pop_front();
         }
@@ -380,7 +390,7 @@ class FrameStream::Implementation {
     Prepare prepare_;
 
     std::mutex reading_;  // guards all down to frames_read_
-    const std::unique_ptr<ObservationSource> source_;
+    const std::shared_ptr<ObservationSource> source_;
     DeadReckoner reckoner_;
     MotionReadingsCollector readings_;
     std::vector<mrpt::obs::CObservation::Ptr> before_;
@@ -405,7 +415,7 @@ class FrameStream::Implementation {
     std::vector<std::thread> workers_;
 };
 
-FrameStream::FrameStream(std::unique_ptr<ObservationSource> source, const ReadAhead& ahead,
+FrameStream::FrameStream(std::shared_ptr<ObservationSource> source, const ReadAhead& ahead,
                          const std::string& sensor_label)
     : impl_(std::make_unique<Implementation>(std::move(source), ahead, sensor_label)) {}
 
@@ -423,6 +433,10 @@ std::vector<CObservation3DRangeScan::Ptr> FrameStream::lookAhead(std::size_t fra
     return impl_->lookAhead(frames);
 }
 
+std::size_t FrameStream::surveyFrames(std::size_t usual) const {
+    return impl_->surveyFrames(usual);
+}
+
 std::optional<StreamedFrame> FrameStream::skip() {
     return impl_->skip();
 }
@@ -433,6 +447,10 @@ void FrameStream::start(Prepare prepare) {
 
 std::optional<StreamedFrame> FrameStream::next() {
     return impl_->next();
+}
+
+void FrameStream::noteTracked(const StreamedFrame& frame) {
+    impl_->noteTracked(frame);
 }
 
 void FrameStream::stop() {

@@ -4,17 +4,14 @@
 
 namespace rgbd_graphslam {
 
-namespace {
-
-std::string withoutNamespace(const std::string& name) {
+std::string classNameOf(const mrpt::obs::CObservation& observation) {
+    const std::string name = observation.GetRuntimeClass()->className;
     const auto colons = name.rfind("::");
     return colons == std::string::npos ? name : name.substr(colons + 2);
 }
 
-}  // namespace
-
 void SensorCensus::note(const mrpt::obs::CObservation& observation, bool used) {
-    const std::string name = withoutNamespace(observation.GetRuntimeClass()->className);
+    const std::string name = classNameOf(observation);
     const auto same = [&](const SensorRecord& sensor) {
         return sensor.label == observation.sensorLabel && sensor.class_name == name;
     };

@@ -109,7 +109,7 @@ Checkpoint readCheckpoint(const std::string& out_folder) {
 
 CheckpointWriter::CheckpointWriter(const SlamJob& job, std::size_t progress)
     : job_(job),
-      interval_(job.localizes() ? 0 : job.options.run.checkpoint_keyframes),
+      interval_(job.localizes() || job.live ? 0 : job.options.run.checkpoint_keyframes),
       last_(progress) {
     job_.rawlog = fs::absolute(job.rawlog).lexically_normal().string();
     if (!job.map_folder.empty()) {

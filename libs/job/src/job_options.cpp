@@ -13,6 +13,7 @@ std::vector<Options*> JobOptions::all() {
     structs.push_back(&maps);
     structs.push_back(&laser);
     structs.push_back(&gps);
+    structs.push_back(&live);
     return structs;
 }
 

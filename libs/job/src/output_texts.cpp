@@ -157,6 +157,47 @@ Json sensorFiguresJson(const JobReport& report) {
     return sensors;
 }
 
+Json liveSensorsJson(const LiveStatistics& live) {
+    Json sensors = Json::array();
+    for (const LiveSensorStatistics& sensor : live.sensors) {
+        sensors.push_back({{"label", sensor.label},
+                           {"class", sensor.class_name},
+                           {"received", sensor.received},
+                           {"dropped", sensor.dropped},
+                           {"late", sensor.late},
+                           {"silences", sensor.silences},
+                           {"longest_silence_s", sensor.longest_silence_s},
+                           {"clock_jumps", sensor.clock_jumps}});
+    }
+    return sensors;
+}
+
+Json liveJson(const JobReport& report) {
+    if (!report.live) return nullptr;
+    const LiveStatistics& live = *report.live;
+    const std::vector<double>& ms = live.latencies_ms;
+    Json latency = nullptr;
+    if (!ms.empty()) {
+        latency = {{"frames", ms.size()},
+                   {"p50", percentileOf(ms, 0.5)},
+                   {"p99", percentileOf(ms, 0.99)},
+                   {"max", statisticsOf(ms).max}};
+    }
+    return {{"latency_ms", latency},     {"starting_frames", live.starting_frames},
+            {"dropped", live.dropped()}, {"late", live.late()},
+            {"failures", live.failures}, {"sensors", liveSensorsJson(live)}};
+}
+
+std::string liveLines(const LiveStatistics& live) {
+    std::string text =
+        formatted("live          %zu frames dropped, %zu measurements late, %zu failures\n",
+                  live.dropped(), live.late(), live.failures);
+    const std::vector<double>& ms = live.latencies_ms;
+    if (ms.empty()) return text;
+    return text + formatted("latency       p50 %.1f ms, p99 %.1f ms, max %.1f ms, image to pose\n",
+                            percentileOf(ms, 0.5), percentileOf(ms, 0.99), statisticsOf(ms).max);
+}
+
 }  // namespace
 
 StageFigures figuresOf(const std::vector<double>& ms) {
@@ -230,6 +271,7 @@ std::string summaryJson(const SlamJob& job, const JobReport& report) {
         {"ate", ateJson(report)},
         {"quality", qualityJson(report.quality)},
         {"motion", motionJson(report.motion, report.imu_delay)},
+        {"live", liveJson(report)},
         {"frames_per_s", report.framesPerSecond()},
         {"cpu_ms_a_frame", report.cpuMsAFrame()},
         {"tracking_wall_s", report.tracking_wall_s},
@@ -273,6 +315,7 @@ std::string resultTable(const SlamJob& job, const JobReport& report) {
     text += "quality       " + qualityText(report.quality) + "\n";
     text += formatted("speed         %.1f frames/s, %.1f ms CPU per frame\n",
                       report.framesPerSecond(), report.cpuMsAFrame());
+    if (report.live) text += liveLines(*report.live);
     text += formatted("peak memory   %.0f MB\n", report.peak_memory_mb);
     return text + "written to    " + job.out_folder + "\n";
 }

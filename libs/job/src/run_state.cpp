@@ -55,20 +55,37 @@ GraphSlamSession makeSession(const SlamJob& job, const FrameStream& stream,
     return {job.options.slam, stream.rig(), std::move(start->snapshot), job.map_use};
 }
 
+std::shared_ptr<ObservationSource> openSource(const SlamJob& job) {
+    if (job.live) return job.live;
+    return std::make_shared<RawlogSource>(job.rawlog);
+}
+
+/** A live frame that waits for its turn is late already: one is prepared while another is tracked.
+ */
+ReadAhead readAhead(const SlamJob& job) {
+    const RunOptions& run = job.options.run;
+    if (job.live) return {std::min(run.threads, 2), 1};
+    return {run.threads, run.frames_ahead};
+}
+
 }  // namespace
 
 RunState::RunState(const SlamJob& slam_job, std::optional<SparseMap> start_map)
     : job(slam_job),
       start(std::move(start_map)),
-      stream(std::make_unique<RawlogSource>(job.rawlog),
-             {job.options.run.threads, job.options.run.frames_ahead}, job.sensor_label),
-      survey(stream.lookAhead(RecordingSurvey::frames)),
+      stream(openSource(job), readAhead(job), job.sensor_label),
+      survey(stream.lookAhead(stream.surveyFrames(RecordingSurvey::frames))),
       session(makeSession(settled(job, survey, stream.rig()), stream, start)),
       level(job.options.maps),
       sensors(stream.firstFrame()) {
     if (!start) return;
     for (const KeyframeView& keyframe : session.slam().keyframes()) noteKeyframe(keyframe.id);
     first_keyframe = static_cast<int>(T_previous_keyframe.size());
+}
+
+RunState::~RunState() {
+    if (job.live) job.live->end();
+    stream.stop();
 }
 
 void RunState::noteKeyframe(int keyframe) {

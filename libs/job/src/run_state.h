@@ -23,7 +23,7 @@ struct RunState {
      *  \throws Error when the rawlog has no RGB-D frame or the map does not fit it */
     RunState(const SlamJob& slam_job, std::optional<SparseMap> start_map);
     /** Frames read ahead are prepared by the session, which goes before the stream. */
-    ~RunState() { stream.stop(); }
+    ~RunState();
     RunState(const RunState&) = delete;
     RunState& operator=(const RunState&) = delete;
 

@@ -58,6 +58,18 @@ bool isComplete(const std::string& folder) {
     return summary.is_object() && summary.value("interrupted", nlohmann::json()) == false;
 }
 
+/** Sensors are let go, the record is completed. */
+void endLiveRun(RunState& run) {
+    LiveSource& live = *run.job.live;
+    live.end();
+    run.stream.stop();
+    run.report.live = live.statistics();
+    bool& dense_maps = run.job.options.run.dense_maps;
+    if (live.finishRecord() || !dense_maps || run.job.localizes()) return;
+    sayWarning("no maps: they are made of the record, and there is none");
+    dense_maps = false;
+}
+
 }  // namespace
 
 SlamJob resumedJob(const std::string& out_folder) {
@@ -72,7 +84,7 @@ SlamJob resumedJob(const std::string& out_folder) {
 
 JobReport runSlamJob(const SlamJob& job) {
     checkFolders(job);
-    if (!job.resume) {
+    if (!job.resume && !job.live) {
         if (const auto report = runWithoutCamera(job)) return *report;
     }
     auto start = readStart(job);
@@ -88,11 +100,12 @@ JobReport runSlamJob(const SlamJob& job) {
     if (!job.resume) checkpoints.remove();  // of an earlier run
     if (job.view) launchViewer(job.out_folder);
     loop.track(checkpoints);
+    if (job.live) endLiveRun(run);
     const bool can_go_on = loop.interrupted() && checkpoints.enabled();
     if (can_go_on) writeCheckpoint(run, checkpoints);
     run.session.finish();
     run.sensors.conclude(run.session.slam());
-    run.report.interrupted = loop.interrupted();
+    run.report.interrupted = loop.interrupted() && !job.live;
     describeRun(run);
     writeRun(run);
     if (can_go_on) {

@@ -12,7 +12,13 @@
 
 namespace rgbd_graphslam {
 
-TrackingLoop::TrackingLoop(RunState& run) : run_(run), live_feed_(run.job.out_folder) {}
+TrackingLoop::TrackingLoop(RunState& run) : run_(run), live_feed_(run.job.out_folder) {
+    if (run.job.live) run.job.live->endWhen([this] { return interrupted(); });
+}
+
+TrackingLoop::~TrackingLoop() {
+    if (run_.job.live) run_.job.live->endWhen({});
+}
 
 void TrackingLoop::track(CheckpointWriter& checkpoints) {
     JobReport& report = run_.report;
@@ -27,6 +33,7 @@ void TrackingLoop::track(CheckpointWriter& checkpoints) {
         auto frame = nextFrame();
         if (!frame) break;
         trackOne(*frame);
+        run_.stream.noteTracked(*frame);
         ++run_.frames_read;
         checkLimits();
         report.tracking_wall_s = earlier_wall_s + 1e-3 * clock.wallMs();

@@ -15,6 +15,7 @@ class TrackingLoop {
   public:
     /** \param run must outlive it */
     explicit TrackingLoop(RunState& run);
+    ~TrackingLoop();
 
     /** \param checkpoints gets one whenever it is due */
     void track(CheckpointWriter& checkpoints);

@@ -59,7 +59,7 @@ class FrameStream {
      *  the same place only the first is taken, which is said.
      *  \param sensor_label of the only camera to take; empty = all
      *  \throws Error when the source has no RGB-D frame of that camera */
-    FrameStream(std::unique_ptr<ObservationSource> source, const ReadAhead& ahead,
+    FrameStream(std::shared_ptr<ObservationSource> source, const ReadAhead& ahead,
                 const std::string& sensor_label = {});
     ~FrameStream();
     FrameStream(const FrameStream&) = delete;
@@ -68,6 +68,9 @@ class FrameStream {
     const Rig& rig() const;
     /** Of the rig's first camera. */
     const mrpt::obs::CObservation3DRangeScan& firstFrame() const;
+
+    /** See ObservationSource. */
+    std::size_t surveyFrames(std::size_t usual) const;
 
     /** Reads the next frames, or as many as there are, which next() hands out all the same; only
      *  before start(). Damage in them is next()'s to tell.
@@ -85,6 +88,9 @@ class FrameStream {
      *  \throws Error naming the frame where the source is cut off or damaged, or a frame has no
      *          usable images; there is nothing after it */
     std::optional<StreamedFrame> next();
+
+    /** The source is told that a frame is done, see ObservationSource. */
+    void noteTracked(const StreamedFrame& frame);
 
     /** Waits until no frame is being prepared and ends reading ahead: what `prepare` uses may go.
      */

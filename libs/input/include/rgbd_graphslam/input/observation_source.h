@@ -2,6 +2,7 @@
 #pragma once
 #include <mrpt/obs/CObservation.h>
 
+#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -22,6 +23,17 @@ class ObservationSource {
 
     /** As error messages call it: "the rawlog 'walk.rawlog'". */
     virtual std::string name() const = 0;
+
+    /** What to do where it has no camera. */
+    virtual std::string cameraRemedy() const { return "import a sequence with rgbd-import"; }
+
+    /** Number of frames to look at before tracking begins, asked once there was a first frame.
+     *  \param usual of a recording */
+    virtual std::size_t surveyFrames(std::size_t usual) const { return usual; }
+
+    /** An image that was handed out has its pose, or was passed over, and all that it set off is
+     *  done. Called by the tracking thread, beside next(). */
+    virtual void noteTracked(const std::string& /*label*/, mrpt::Clock::time_point /*stamp*/) {}
 };
 
 }  // namespace rgbd_graphslam

@@ -8,6 +8,9 @@
 
 namespace rgbd_graphslam {
 
+/** Of MRPT, without its namespace. */
+std::string classNameOf(const mrpt::obs::CObservation& observation);
+
 /** The observations of one class with one label. */
 struct SensorRecord {
     std::string label, class_name;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "rgbd_graphslam/fusion/gps_options.h"
+#include "rgbd_graphslam/input/live_options.h"
 #include "rgbd_graphslam/job/run_options.h"
 #include "rgbd_graphslam/laser/laser_options.h"
 #include "rgbd_graphslam/mapping/map_options.h"
@@ -18,6 +19,7 @@ struct JobOptions {
     MapOptions maps;
     LaserOptions laser;
     GpsOptions gps;
+    LiveOptions live;
 
     /** For IniFile::load and toIniText. */
     std::vector<Options*> all();

@@ -1,10 +1,12 @@
 /** The main job: a rawlog in, a folder with trajectory, graph and maps out. */
 #pragma once
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "rgbd_graphslam/dataset/sensor_verdict.h"
+#include "rgbd_graphslam/input/live_source.h"
 #include "rgbd_graphslam/input/sensor_census.h"
 #include "rgbd_graphslam/job/job_options.h"
 #include "rgbd_graphslam/job/run_quality.h"
@@ -16,6 +18,9 @@ namespace rgbd_graphslam {
 /** What to run on, with which settings, and where to write. */
 struct SlamJob {
     std::string rawlog, out_folder;
+    /** Sensors that run now, in place of a recording; null = a recording. `rawlog` then is the
+     *  record of the run, which the maps are made of; it exists if `live` records to it. */
+    std::shared_ptr<LiveSource> live;
     JobOptions options;
     /** Output folder of an earlier run whose map this one starts from; empty = a map of its own. */
     std::string map_folder;
@@ -100,6 +105,8 @@ struct JobReport {
     double peak_memory_mb = 0;
     std::vector<VisualSlam::StageTime> stages;
     std::vector<FrameTime> frame_times;
+    /** Of a run over live sensors. */
+    std::optional<LiveStatistics> live;
 
     /** Said on the way. */
     std::vector<std::string> warnings;
@@ -127,6 +134,10 @@ struct JobReport {
  *  run that goes on from it reads over what was tracked and ends with the same trajectory, graph,
  *  frames.csv and maps as one that was never ended; times of stages are of what it tracked itself.
  *  A run that localizes writes none.
+ *
+ *  A live run goes on until its source ends or somebody interrupts, and writes no checkpoints. Its
+ *  maps need the record. A run over the record writes the same trajectory, graph, frames.csv and
+ *  maps.
  *
  *  A rawlog that is cut off or damaged, SIGINT or SIGTERM, and the limits on keyframes and memory
  *  end the tracking; what was mapped by then is written and the report says so.
