@@ -4,10 +4,10 @@
 
 #include "command_line.h"
 #include "configured_input.h"
+#include "live_sensors.h"
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/job/slam_job.h"
-#include "rgbd_graphslam/sensors/live_sensors.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -128,15 +128,14 @@ std::string recordOf(const Arguments& args) {
 }
 
 /** Starts the sensors and makes them the job's source. */
-std::unique_ptr<LiveSensors> startSensors(const Arguments& args, SlamJob& job) {
+std::shared_ptr<void> startSensors(const Arguments& args, SlamJob& job) {
     if (args.live_ini.empty()) return nullptr;
-    const SensorFile file = readSensorFile(args.live_ini);
     job.live =
         std::make_shared<LiveSource>(job.options.live, "the live input of '" + args.live_ini + "'");
     const bool for_maps = job.options.run.dense_maps && !job.localizes();
     if (for_maps || !args.record.empty()) job.live->recordTo(job.rawlog);
     if (args.duration_s > 0) job.live->endAfter(args.duration_s);
-    return std::make_unique<LiveSensors>(file, job.live);
+    return startLiveSensors(args.live_ini, job.live);
 }
 
 SlamJob jobOf(const CLI::App& app, const Arguments& args) {

@@ -82,7 +82,7 @@ TEST_F(LiveSensorsRun, itsRecordGivesTheSameBytes) {
 
 TEST_F(LiveSensorsRun, whatWasDroppedLateOrLostIsSoInItsRecord) {
     const ProgramResult result =
-        live("speed = 30\nloss = 0.05\njitter_ms = 20\nreorder = 0.1\n",
+        live("speed = 30\nrepeat = 4\nloss = 0.05\njitter_ms = 20\nreorder = 0.1\n",
              "--no-maps --record '" + record_ + "' --set LiveOptions.max_waiting_frames=1");
     ASSERT_EQ(result.exit_code, 0) << result.err;
     const auto live = summary()["live"];

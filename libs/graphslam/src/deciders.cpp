@@ -22,6 +22,7 @@ void track(SharedSlam& shared, const CObservation3DRangeScan::Ptr& frame) {
     shared.prepared.reset();
     shared.last = shared.slam->track(std::move(prepared));
     shared.new_keyframe = shared.last.keyframe;
+    if (shared.on_pose) shared.on_pose(shared.last);
 }
 
 }  // namespace

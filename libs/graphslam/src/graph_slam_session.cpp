@@ -160,6 +160,10 @@ TrackedFrame GraphSlamSession::step(const CObservation3DRangeScan::Ptr& observat
     return step(observation, prepare(toTrackingImage(observation)));
 }
 
+void GraphSlamSession::onPose(std::function<void(const TrackedFrame&)> take) {
+    impl_->shared().on_pose = std::move(take);
+}
+
 void GraphSlamSession::finish() {
     impl_->shared().slam->finish();
     updateNodes(impl_->graph());

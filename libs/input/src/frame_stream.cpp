@@ -50,6 +50,12 @@ void checkStamp(const CObservation3DRangeScan& frame, std::size_t index) {
                 "their number, and import DIR with rgbd-import");
 }
 
+std::vector<CObservation3DRangeScan::Ptr> imagesOf(const StreamedFrame& frame) {
+    std::vector<CObservation3DRangeScan::Ptr> images{frame.observation};
+    for (const auto& [camera, observation] : frame.others) images.push_back(observation);
+    return images;
+}
+
 }  // namespace
 
 class FrameStream::Implementation {
@@ -107,12 +113,15 @@ class FrameStream::Implementation {
         return coming->get();
     }
 
+    void notePose(const StreamedFrame& frame) {
+        for (const auto& image : imagesOf(frame)) {
+            source_->notePose(image->sensorLabel, image->timestamp);
+        }
+    }
     void noteTracked(const StreamedFrame& frame) {
-        const auto note = [&](const CObservation3DRangeScan& image) {
-            source_->noteTracked(image.sensorLabel, image.timestamp);
-        };
-        note(*frame.observation);
-        for (const auto& [camera, observation] : frame.others) note(*observation);
+        for (const auto& image : imagesOf(frame)) {
+            source_->noteTracked(image->sensorLabel, image->timestamp);
+        }
     }
 
     std::size_t surveyFrames(std::size_t usual) const { return source_->surveyFrames(usual); }
@@ -447,6 +456,10 @@ void FrameStream::start(Prepare prepare) {
 
 std::optional<StreamedFrame> FrameStream::next() {
     return impl_->next();
+}
+
+void FrameStream::notePose(const StreamedFrame& frame) {
+    impl_->notePose(frame);
 }
 
 void FrameStream::noteTracked(const StreamedFrame& frame) {

@@ -26,6 +26,10 @@ namespace {
 /** Of readings that wait, should tracking stand still. */
 constexpr std::size_t most_readings = 20000;
 
+/** Before tracking has caught up for the first time: two seconds at 30 Hz. */
+constexpr int most_waiting_at_start = 60;
+constexpr double longest_start_s = 2;
+
 constexpr std::chrono::milliseconds poll_interval(50);
 
 double inSeconds(LiveSource::Clock::time_point moment) {
@@ -110,10 +114,16 @@ class LiveSource::Implementation {
         return observation;
     }
 
+    void notePose(const std::string& label, mrpt::Clock::time_point stamp) {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        noteLatency({label, stamp}, latencies_ms_);
+    }
+
     void noteTracked(const std::string& label, mrpt::Clock::time_point stamp) {
         {
             const std::lock_guard<std::mutex> lock(mutex_);
-            noteLatency({label, stamp}, inSeconds(Clock::now()));
+            noteLatency({label, stamp}, completions_ms_);
+            forgetArrival({label, stamp});
         }
         if (recorder_) recorder_->commit(label, stamp);  // may wait for the disk
     }
@@ -136,6 +146,7 @@ class LiveSource::Implementation {
             all.sensors.push_back(sensors_.at(label).statistics);
         }
         all.latencies_ms = latencies_ms_;
+        all.completions_ms = completions_ms_;
         all.starting_frames = starting_frames_;
         all.failures = failures_;
         return all;
@@ -198,6 +209,7 @@ class LiveSource::Implementation {
         auto& list = measurement.sensor->is_camera ? images_ : readings_;
         const auto place = std::upper_bound(list.begin(), list.end(), measurement.stamp_s, earlier);
         LiveSensor& sensor = *measurement.sensor;
+        if (sensor.is_camera) noteStart(measurement.arrival_s);
         list.insert(place, std::move(measurement));
         if (sensor.is_camera) {
             makeRoom(sensor);
@@ -207,11 +219,23 @@ class LiveSource::Implementation {
         }
     }
 
+    /** Frames that waited for the survey and for the first map are not those of a running robot. */
+    void noteStart(double arrival_s) {
+        if (caught_up_s_ || !first_tracked_s_) return;
+        const bool idle = images_.empty() && arrivals_.empty();
+        if (idle || arrival_s > *first_tracked_s_ + longest_start_s) caught_up_s_ = arrival_s;
+    }
+
+    int mostWaiting() const {
+        const int most = options_.max_waiting_frames;
+        return caught_up_s_ ? most : std::max(most, most_waiting_at_start);
+    }
+
     /** The newest images win; what another camera took at the moment of a dropped one goes, too. */
     void makeRoom(const LiveSensor& camera) {
         const auto of_camera = [&](const Measurement& image) { return image.sensor == &camera; };
         const auto waiting = std::count_if(images_.begin(), images_.end(), of_camera);
-        if (waiting <= options_.max_waiting_frames) return;
+        if (waiting <= mostWaiting()) return;
         const double stamp_s = std::find_if(images_.begin(), images_.end(), of_camera)->stamp_s;
         const auto gone =
             std::stable_partition(images_.begin(), images_.end(), [&](const Measurement& image) {
@@ -296,15 +320,20 @@ class LiveSource::Implementation {
         released_.push_back(measurement.observation);
     }
 
-    void noteLatency(const ImageKey& image, double now_s) {
+    void noteLatency(const ImageKey& image, std::vector<double>& latencies_ms) const {
+        const auto arrival = arrivals_.find(image);
+        if (arrival == arrivals_.end() || isOfStart(arrival->second)) return;
+        latencies_ms.push_back(1e3 * (inSeconds(Clock::now()) - arrival->second));
+    }
+
+    bool isOfStart(double arrival_s) const { return !caught_up_s_ || arrival_s < *caught_up_s_; }
+
+    /** And those of images that nobody asked for. */
+    void forgetArrival(const ImageKey& image) {
         const auto arrival = arrivals_.find(image);
         if (arrival == arrivals_.end()) return;
-        if (!first_tracked_s_) first_tracked_s_ = now_s;
-        if (arrival->second < *first_tracked_s_) {
-            ++starting_frames_;
-        } else {
-            latencies_ms_.push_back(1e3 * (now_s - arrival->second));
-        }
+        if (!first_tracked_s_) first_tracked_s_ = inSeconds(Clock::now());
+        starting_frames_ += isOfStart(arrival->second);
         const double passed_over_s = arrival->second - 5;
         for (auto other = arrivals_.begin(); other != arrivals_.end();) {
             const bool gone = other->first == image || other->second < passed_over_s;
@@ -324,8 +353,8 @@ class LiveSource::Implementation {
     std::deque<Measurement> images_, readings_;  // by their stamps
     std::deque<CObservation::Ptr> released_;
     std::map<ImageKey, double> arrivals_;  // of images that are not tracked yet
-    std::optional<double> last_image_s_, first_release_s_, first_tracked_s_;
-    std::vector<double> latencies_ms_;
+    std::optional<double> last_image_s_, first_release_s_, first_tracked_s_, caught_up_s_;
+    std::vector<double> latencies_ms_, completions_ms_;
     std::size_t starting_frames_ = 0, failures_ = 0, dropped_ = 0;
     double told_drop_s_ = 0;
     bool closed_ = false, ended_ = false;
@@ -391,6 +420,10 @@ CObservation::Ptr LiveSource::next() {
 
 std::string LiveSource::cameraRemedy() const {
     return "check that the camera is plugged in and sends color and depth";
+}
+
+void LiveSource::notePose(const std::string& label, mrpt::Clock::time_point stamp) {
+    impl_->notePose(label, stamp);
 }
 
 void LiveSource::noteTracked(const std::string& label, mrpt::Clock::time_point stamp) {

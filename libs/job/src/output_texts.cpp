@@ -172,20 +172,24 @@ Json liveSensorsJson(const LiveStatistics& live) {
     return sensors;
 }
 
+Json latencyJson(const std::vector<double>& ms) {
+    if (ms.empty()) return nullptr;
+    return {{"frames", ms.size()},
+            {"p50", percentileOf(ms, 0.5)},
+            {"p99", percentileOf(ms, 0.99)},
+            {"max", statisticsOf(ms).max}};
+}
+
 Json liveJson(const JobReport& report) {
     if (!report.live) return nullptr;
     const LiveStatistics& live = *report.live;
-    const std::vector<double>& ms = live.latencies_ms;
-    Json latency = nullptr;
-    if (!ms.empty()) {
-        latency = {{"frames", ms.size()},
-                   {"p50", percentileOf(ms, 0.5)},
-                   {"p99", percentileOf(ms, 0.99)},
-                   {"max", statisticsOf(ms).max}};
-    }
-    return {{"latency_ms", latency},     {"starting_frames", live.starting_frames},
-            {"dropped", live.dropped()}, {"late", live.late()},
-            {"failures", live.failures}, {"sensors", liveSensorsJson(live)}};
+    return {{"latency_ms", latencyJson(live.latencies_ms)},
+            {"completion_ms", latencyJson(live.completions_ms)},
+            {"starting_frames", live.starting_frames},
+            {"dropped", live.dropped()},
+            {"late", live.late()},
+            {"failures", live.failures},
+            {"sensors", liveSensorsJson(live)}};
 }
 
 std::string liveLines(const LiveStatistics& live) {

@@ -13,10 +13,13 @@
 namespace rgbd_graphslam {
 
 TrackingLoop::TrackingLoop(RunState& run) : run_(run), live_feed_(run.job.out_folder) {
-    if (run.job.live) run.job.live->endWhen([this] { return interrupted(); });
+    if (!run.job.live) return;
+    run.job.live->endWhen([this] { return interrupted(); });
+    run.session.onPose([this](const TrackedFrame&) { run_.stream.notePose(*tracked_); });
 }
 
 TrackingLoop::~TrackingLoop() {
+    run_.session.onPose({});
     if (run_.job.live) run_.job.live->endWhen({});
 }
 
@@ -99,6 +102,7 @@ void TrackingLoop::trackOne(StreamedFrame& frame) {
     ++run_.report.frames;
     const ThreadClock clock;
     run_.sensors.withhold(frame.prepared);
+    tracked_ = &frame;
     const TrackedFrame tracked = run_.session.step(frame.observation, std::move(frame.prepared));
     run_.sensors.compareWhenDue(run_.session.slam(), run_.report.frames);
     run_.report.frame_times.push_back({stamp_s, clock.wallMs()});

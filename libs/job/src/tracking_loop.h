@@ -30,6 +30,7 @@ class TrackingLoop {
     std::string progressNote() const;
 
     RunState& run_;
+    const StreamedFrame* tracked_ = nullptr;  // at present
     LiveFeed live_feed_;
     Interruption interruption_;
 };

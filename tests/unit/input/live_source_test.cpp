@@ -62,6 +62,12 @@ class Live : public testing::Test {
     void push(const CObservation::Ptr& observation, double arrival_s) {
         source().push(observation, moment(arrival_s));
     }
+    /** Tracking has begun and waits for frames. */
+    void begin() {
+        push(image(-1));
+        const auto first = source().next();
+        source().noteTracked(first->sensorLabel, first->timestamp);
+    }
     /** All that there is now, as label and stamp after the start, ms. */
     std::vector<std::string> take() {
         source().close();
@@ -91,15 +97,24 @@ TEST_F(Live, putsReadingsBeforeTheImageThatTheyPrecede) {
 
 TEST_F(Live, keepsTheNewestImages) {
     options_.max_waiting_frames = 2;
+    begin();
     for (int i = 0; i < 5; ++i) push(image(0.03 * i));
     EXPECT_THAT(take(), ElementsAre("CAM 90", "CAM 120"));
     EXPECT_EQ(source().statistics().dropped(), 3u);
-    EXPECT_EQ(source().statistics().sensors.at(0).received, 5u);
+    EXPECT_EQ(source().statistics().sensors.at(0).received, 6u);
     EXPECT_THAT(warnings_.warnings(), ElementsAre(HasSubstr("tracking is behind")));
+}
+
+TEST_F(Live, dropsNothingUntilTrackingHasCaughtUp) {
+    options_.max_waiting_frames = 1;
+    for (int i = 0; i < 30; ++i) push(image(0.03 * i));
+    EXPECT_EQ(take().size(), 30u);
+    EXPECT_EQ(source().statistics().dropped(), 0u);
 }
 
 TEST_F(Live, dropsWhatAllCamerasTookAtOneMoment) {
     options_.max_waiting_frames = 1;
+    begin();
     for (int i = 0; i < 2; ++i) {
         push(image(0.03 * i, "LEFT"));
         push(image(0.03 * i + 0.001, "RIGHT"));
@@ -207,18 +222,25 @@ TEST_F(Live, measuresFromTheArrivalOfAnImage) {
     }
     const LiveStatistics statistics = source().statistics();
     EXPECT_EQ(statistics.starting_frames, 2u);  // both came before the first was tracked
+    EXPECT_TRUE(statistics.latencies_ms.empty());
     source().push(image(0.2));
     const auto frame = source().next();
     std::this_thread::sleep_for(5ms);
+    source().notePose(frame->sensorLabel, frame->timestamp);
+    std::this_thread::sleep_for(5ms);
     source().noteTracked(frame->sensorLabel, frame->timestamp);
-    ASSERT_EQ(source().statistics().latencies_ms.size(), 1u);
-    EXPECT_GE(source().statistics().latencies_ms[0], 5);
+    const LiveStatistics later = source().statistics();
+    ASSERT_EQ(later.latencies_ms.size(), 1u);
+    ASSERT_EQ(later.completions_ms.size(), 1u);
+    EXPECT_GE(later.latencies_ms[0], 5);
+    EXPECT_GE(later.completions_ms[0], later.latencies_ms[0] + 5);
 }
 
 TEST_F(Live, recordsWhatWasTracked) {
     const TestFolder folder;
     options_.max_waiting_frames = 3;
     source().recordTo(folder / "a.rawlog");
+    begin();
     for (int i = 0; i < 4; ++i) {  // the first one is dropped
         push(wheels(0.03 * i));
         push(image(0.03 * i + 0.01));
@@ -242,7 +264,7 @@ TEST_F(Live, recordsWhatWasTracked) {
             labels.push_back(next->sensorLabel);
         }
     }
-    EXPECT_THAT(labels, ElementsAre("WHEELS", "WHEELS", "CAM", "WHEELS", "CAM"));
+    EXPECT_THAT(labels, ElementsAre("CAM", "WHEELS", "WHEELS", "CAM", "WHEELS", "CAM"));
     EXPECT_THAT(comments, HasSubstr("is dropped"));
     EXPECT_EQ(record.surveyFrames(40), LiveSource::survey_frames);
 }

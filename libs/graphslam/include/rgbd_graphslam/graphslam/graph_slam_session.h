@@ -2,6 +2,7 @@
 #pragma once
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -42,6 +43,10 @@ class GraphSlamSession {
     /** step() that prepares the frame itself. \throws Error for unusable images, naming the frame
      */
     TrackedFrame step(const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
+
+    /** Calls this within each step() as soon as the pose is known, before loops are searched.
+     *  \param take may be empty */
+    void onPose(std::function<void(const TrackedFrame&)> take);
 
     /** Refines the whole map once more. */
     void finish();

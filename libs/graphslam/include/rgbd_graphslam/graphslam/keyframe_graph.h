@@ -3,6 +3,7 @@
 #include <mrpt/graphs/CNetworkOfPoses.h>
 #include <mrpt/obs/CObservation3DRangeScan.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -21,6 +22,8 @@ struct SharedSlam {
     /** Features of the coming frame where they were made ahead of it. */
     std::optional<Frame> prepared;
     TrackedFrame last;
+    /** See GraphSlamSession::onPose(). */
+    std::function<void(const TrackedFrame&)> on_pose;
     /** Keyframe that the present step has made. */
     std::optional<int> new_keyframe;
     /** Of the graph, between cameras, in the order in which they came. */

@@ -89,6 +89,8 @@ class FrameStream {
      *          usable images; there is nothing after it */
     std::optional<StreamedFrame> next();
 
+    /** The source is told that the pose of a frame is known, see ObservationSource. */
+    void notePose(const StreamedFrame& frame);
     /** The source is told that a frame is done, see ObservationSource. */
     void noteTracked(const StreamedFrame& frame);
 

@@ -15,7 +15,8 @@ namespace rgbd_graphslam {
 
 /** Takes measurements from the threads of sensors and hands them to tracking in one order:
  *
- *  - Images in order of their stamps. Where tracking is behind, the oldest that wait are dropped.
+ *  - Images in order of their stamps. Where tracking is behind, the oldest that wait are dropped;
+ *    more may wait until tracking has caught up for the first time, two seconds at most.
  *  - Before an image, the readings of other sensors up to its stamp, by their stamps. An image
  *    waits for those that are due by then, at most LiveOptions::wait_ms.
  *  - A reading that comes later than that goes before the next image, unless it is older than the
@@ -63,6 +64,7 @@ class LiveSource final : public ObservationSource {
     std::string name() const override { return name_; }
     std::string cameraRemedy() const override;
     std::size_t surveyFrames(std::size_t) const override { return survey_frames; }
+    void notePose(const std::string& label, mrpt::Clock::time_point stamp) override;
     void noteTracked(const std::string& label, mrpt::Clock::time_point stamp) override;
 
     /** Completes the record. \return whether there is one, whole; why not has been said */

@@ -26,9 +26,11 @@ struct LiveSensorStatistics {
 struct LiveStatistics {
     /** In the order in which they first sent something. */
     std::vector<LiveSensorStatistics> sensors;
-    /** Of each tracked frame, from the arrival of its last image to its pose and all that it set
-     *  off. Frames that arrived before tracking began are not among them. */
+    /** Of each image, from its arrival to its pose. Frames that arrived before tracking had caught
+     *  up with them are not among them. */
     std::vector<double> latencies_ms;
+    /** The same to the end of all that the frame set off, such as a search for loops. */
+    std::vector<double> completions_ms;
     std::size_t starting_frames = 0;
     /** Failures of drivers, such as a sensor that is unplugged. */
     std::size_t failures = 0;

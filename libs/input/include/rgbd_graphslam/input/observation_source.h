@@ -31,6 +31,9 @@ class ObservationSource {
      *  \param usual of a recording */
     virtual std::size_t surveyFrames(std::size_t usual) const { return usual; }
 
+    /** The pose of an image that was handed out is known. As noteTracked(), and before it. */
+    virtual void notePose(const std::string& /*label*/, mrpt::Clock::time_point /*stamp*/) {}
+
     /** An image that was handed out has its pose, or was passed over, and all that it set off is
      *  done. Called by the tracking thread, beside next(). */
     virtual void noteTracked(const std::string& /*label*/, mrpt::Clock::time_point /*stamp*/) {}
