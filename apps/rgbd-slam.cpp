@@ -26,6 +26,26 @@ struct Arguments {
     bool strict = false, no_maps = false, profile = false, view = false, print_config = false;
 };
 
+/** \return the options of live runs */
+std::vector<CLI::Option*> declareLive(CLI::App& app, Arguments& args) {
+    auto* const live = app.add_option("--live", args.live_ini,
+                                      "Read the sensors of this ini file, as rawlog-grabber does, "
+                                      "in place of a rawlog, until Ctrl-C")
+                           ->type_name("INI");
+    auto* const record =
+        app.add_option("--record", args.record,
+                       "With --live: write the rawlog here (default: OUT/record.rawlog, or none "
+                       "with --no-maps)")
+            ->type_name("RAWLOG")
+            ->needs(live);
+    auto* const duration =
+        app.add_option("--duration", args.duration_s, "With --live: end after so many seconds")
+            ->type_name("S")
+            ->check(CLI::Range(0.1, 1e6).description(""))
+            ->needs(live);
+    return {live, record, duration};
+}
+
 void declare(CLI::App& app, Arguments& args) {
     args.rawlog.declare(app, "RAWLOG", "Rawlog with RGB-D frames",
                         "Settings (default: those of ini/default.ini)");
@@ -59,21 +79,7 @@ void declare(CLI::App& app, Arguments& args) {
             ->type_name("N");
     auto* const no_maps =
         app.add_flag("--no-maps", args.no_maps, "As --set RunOptions.dense_maps=false");
-    auto* const live = app.add_option("--live", args.live_ini,
-                                      "Read the sensors of this ini file, as rawlog-grabber does, "
-                                      "in place of a rawlog, until Ctrl-C")
-                           ->type_name("INI");
-    auto* const record =
-        app.add_option("--record", args.record,
-                       "With --live: write the rawlog here (default: OUT/record.rawlog, or none "
-                       "with --no-maps)")
-            ->type_name("RAWLOG")
-            ->needs(live);
-    auto* const duration =
-        app.add_option("--duration", args.duration_s, "With --live: end after so many seconds")
-            ->type_name("S")
-            ->check(CLI::PositiveNumber)
-            ->needs(live);
+    const auto of_live = declareLive(app, args);
     app.add_flag("--view", args.view,
                  "Watch the run in a window, as rgbd-viewer --follow OUT does");
     app.add_flag("--profile", args.profile, "Print the CPU time of each stage");
@@ -85,8 +91,8 @@ void declare(CLI::App& app, Arguments& args) {
                        "settings and rawlog")
             ->type_name("DIR");
     for (auto* const other : args.rawlog.options()) resume->excludes(other);
-    for (auto* const other :
-         {out, map, sensor, strict, set, max_frames, no_maps, live, record, duration}) {
+    for (auto* const other : of_live) resume->excludes(other);
+    for (auto* const other : {out, map, sensor, strict, set, max_frames, no_maps}) {
         resume->excludes(other);
     }
     declareExamples(app, {"rgbd-slam office.rawlog -o office",
