@@ -8,6 +8,7 @@
 #include "rgbd_graphslam/mapping/run_folder.h"
 #include "rgbd_graphslam/mapping/scan_rawlog.h"
 #include "rgbd_graphslam/report/run_report.h"
+#include "rgbd_graphslam/semantics/semantic_maps.h"
 
 using namespace rgbd_graphslam;
 
@@ -37,6 +38,13 @@ MapOptions optionsOf(const CLI::App& app, const Arguments& arguments) {
     set("--z-max", "z_max_m", arguments.z_max_m);
     for (const auto& setting : arguments.settings) overrides.override(setting);
     overrides.load({&options});
+    return options;
+}
+
+SemanticOptions semanticOptionsOf(const Arguments& arguments) {
+    SemanticOptions options;
+    const std::string config = arguments.folder + "/config.ini";
+    if (std::filesystem::exists(config)) IniFile::fromFile(config).loadKnown({&options});
     return options;
 }
 
@@ -91,6 +99,9 @@ int main(int argc, char** argv) {
         MapInputs inputs = readRunFolder(arguments.folder, arguments.rawlog);
         if (arguments.upright) inputs = transformed(T_gravity_world(inputs, options), inputs);
         const MapSummary summary = writeMaps(inputs, options, folder);
+        if (hasLabels(arguments.folder)) {
+            writeSemanticMaps(inputs, options, semanticOptionsOf(arguments), folder);
+        }
         std::size_t scans = 0;
         if (arguments.scans_per_s > 0)
             scans = writeScans(inputs, options, arguments.scans_per_s, folder + "/scans.rawlog");

@@ -131,6 +131,8 @@ int main(int argc, char** argv) {
                    "PICTURE DIR...: show rendered sequences in one picture and exit");
     app.add_option("--session", options.session, "Session, for scenarios with several")
         ->capture_default_str();
+    app.add_flag("--labels", options.labels,
+                 "label/ and labels.ini: images of the class that each pixel shows");
     app.add_flag("--scanner", options.scanner,
                  "planar robots: scans.txt of a 2-D laser scanner, 270 degrees, 40 Hz");
     app.add_flag_callback(

@@ -2,7 +2,7 @@
 # free of recordings and windows does not. ROOT: folder that holds libs/.
 cmake_minimum_required(VERSION 3.22)
 
-set(layers core geometry metrics live dataset report synth features estimation laser fusion slam mapping evaluation navigation
+set(layers core geometry metrics live dataset report synth features estimation laser fusion slam mapping semantics evaluation navigation
     input sensors graphslam job export viewer benchmark)
 # These know nothing of rawlogs, and of MRPT no more than what `core` shows them.
 set(pure features estimation slam)

@@ -127,7 +127,8 @@ class Loader : public OptionVisitor {
         std::string origin;
         const std::string* text = find(key, origin);
         if (!text) return;
-        if (std::find(allowed.begin(), allowed.end(), *text) == allowed.end()) {
+        const bool is_any = allowed.empty();
+        if (!is_any && std::find(allowed.begin(), allowed.end(), *text) == allowed.end()) {
             std::string list;
             for (const auto& word : allowed) list += (list.empty() ? "" : "|") + word;
             throw Error(origin + ": " + key + " = '" + *text + "' cannot be used", "give " + list);
@@ -181,7 +182,7 @@ class Printer : public OptionVisitor {
                 const char* help) override {
         std::string list;
         for (const auto& word : allowed) list += (list.empty() ? "" : "|") + word;
-        line(key, value, "[" + list + "] " + help);
+        line(key, value, list.empty() ? help : "[" + list + "] " + help);
     }
     std::ostringstream out;
 

@@ -57,6 +57,7 @@ FrameSource::FrameSource(const RgbdSequence& sequence, const CameraSetup& setup,
                          const ImportOptions& options, const std::vector<FramePair>& pairs)
     : sequence_(sequence),
       masks_(sequence.folder, options.mask_file),
+      labels_(sequence.folder),
       setup_(setup),
       depth_setup_(options.depth_camera) {
     fitSizes(pairs);
@@ -141,7 +142,7 @@ LoadedFrame FrameSource::load(const FramePair& pair) const {
                  depth = readDepthImage(depth_file, depthUnits());
     std::string damage = color.damage.empty() ? depth.damage : color.damage;
     if (damage.empty()) damage = dropUnconfident(sequence_, pair.depth.file, depth.pixels);
-    if (!damage.empty()) return {color_file, {}, {}, damage, false, {}};
+    if (!damage.empty()) return {color_file, {}, {}, damage, false, {}, {}};
     const cv::Size color_size = sizeOf(setup_.camera);
     if (color.pixels.size() != color_size) refuseSize(color_file, color.pixels.size(), color_size);
     if (depth.pixels.size() != depth_size_)
@@ -152,8 +153,13 @@ LoadedFrame FrameSource::load(const FramePair& pair) const {
     } else if (depth_size_ != color_size) {
         cv::resize(depth.pixels, depth.pixels, color_size, 0, 0, cv::INTER_NEAREST_EXACT);
     }
-    return {color_file, color.pixels,    depth.pixels,
-            {},         depth.converted, masks_.of(pair.color.file, color_size)};
+    return {color_file,
+            color.pixels,
+            depth.pixels,
+            {},
+            depth.converted,
+            masks_.of(pair.color.file, color_size),
+            labels_.of(pair.color.file, color_size)};
 }
 
 }  // namespace rgbd_graphslam

@@ -7,6 +7,7 @@
 
 #include "frame_pairs.h"
 #include "image_masks.h"
+#include "label_images.h"
 #include "rgbd_graphslam/dataset/depth_registration.h"
 #include "rgbd_graphslam/dataset/sequence_import.h"
 
@@ -21,6 +22,8 @@ struct LoadedFrame {
     bool converted = false;
     /** See ImageMasks. */
     cv::Mat mask;
+    /** See LabelImages. */
+    cv::Mat labels;
 };
 
 class FrameSource {
@@ -34,6 +37,9 @@ class FrameSource {
     const CameraSetup& setup() const { return setup_; }
     /** What was changed, a line each. */
     const std::vector<std::string>& notes() const { return notes_; }
+
+    /** Of the values of label images; empty without any. */
+    const LabelSet& labelNames() const { return labels_.names(); }
 
     /** Units per meter of the depth images. */
     double depthUnits() const;
@@ -51,6 +57,7 @@ class FrameSource {
 
     const RgbdSequence& sequence_;
     ImageMasks masks_;
+    LabelImages labels_;
     CameraSetup setup_;
     std::optional<CameraSetup> depth_setup_;
     std::optional<DepthRegistration> registration_;

@@ -117,4 +117,15 @@ DecodedImage readDepthImage(const std::string& path, double units) {
     return image;
 }
 
+DecodedImage readLabelImage(const std::string& path) {
+    DecodedImage image = decoded(path, bytesOf(path), cv::IMREAD_UNCHANGED);
+    if (!image.damage.empty()) return image;
+    if (image.pixels.type() == CV_8UC1) image.pixels.convertTo(image.pixels, CV_16U);
+    if (image.pixels.type() != CV_16UC1) {
+        throw Error("label image '" + path + "' is " + kindOf(image.pixels),
+                    "write class numbers as a gray PNG of 8 or 16 bit, without a palette");
+    }
+    return image;
+}
+
 }  // namespace rgbd_graphslam

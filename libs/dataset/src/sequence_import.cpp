@@ -16,6 +16,7 @@
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/progress.h"
 #include "rgbd_graphslam/dataset/depth_stamps.h"
+#include "rgbd_graphslam/dataset/label_observation.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/dataset/sensor_hints.h"
@@ -123,6 +124,11 @@ class Import {
             report_.notes.push_back(std::to_string(masked_) + " of " +
                                     std::to_string(report_.frames) + " frames have a mask");
         }
+        if (labeled_ > 0) {
+            report_.notes.push_back(std::to_string(labeled_) + " of " +
+                                    std::to_string(report_.frames) + " frames have labels, of " +
+                                    std::to_string(source_.labelNames().size()) + " named classes");
+        }
         report_.notes.insert(report_.notes.end(), source_.notes().begin(), source_.notes().end());
         judgeRegistration();
         judgeLens();
@@ -146,6 +152,7 @@ class Import {
             "[source]\nsequence = " + fs::weakly_canonical(sequence_.folder).filename().string() +
             "\ncamera = " + fs::path(setup_.name).filename().string() + "\n" +
             toIniText(depthStampsOf(pairs_));
+        if (!source_.labelNames().empty()) comment.text += "\n" + toComment(source_.labelNames());
         writer.write(comment);
     }
 
@@ -167,6 +174,7 @@ class Import {
         setDepth(*frame, loaded.depth);
         if (!loaded.mask.empty()) setMask(*frame, loaded.mask);
         masked_ += !loaded.mask.empty();
+        writeLabels(pair, loaded, writer);
         writer.writeFrame(*frame, loaded.color_file);
         const double stamp_s = pair.color.stamp_s;
         if (report_.frames++ == 0) {
@@ -175,6 +183,15 @@ class Import {
             report_.longest_gap_s = std::max(report_.longest_gap_s, stamp_s - report_.last_stamp_s);
         }
         report_.last_stamp_s = stamp_s;
+    }
+
+    void writeLabels(const FramePair& pair, const LoadedFrame& loaded, RawlogWriter& writer) {
+        if (loaded.labels.empty()) return;
+        for (const auto& image :
+             makeLabelObservations(rgbd_label, pair.color.stamp_s, loaded.labels)) {
+            writer.write(*image);
+        }
+        ++labeled_;
     }
 
     void countDamage(const std::string& damage) {
@@ -247,7 +264,7 @@ class Import {
 
     const RgbdSequence& sequence_;
     const ImportOptions& options_;
-    std::size_t converted_ = 0, masked_ = 0;
+    std::size_t converted_ = 0, masked_ = 0, labeled_ = 0;
     ImportReport report_;
     std::vector<FramePair> pairs_;
     FrameSource source_;

@@ -14,6 +14,7 @@ std::vector<Options*> JobOptions::all() {
     structs.push_back(&laser);
     structs.push_back(&gps);
     structs.push_back(&live);
+    structs.push_back(&semantics);
     return structs;
 }
 

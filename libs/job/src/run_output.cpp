@@ -1,5 +1,6 @@
 #include "run_output.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
@@ -11,10 +12,12 @@
 #include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/core/process_usage.h"
 #include "rgbd_graphslam/core/thread_clock.h"
+#include "rgbd_graphslam/dataset/label_observation.h"
 #include "rgbd_graphslam/mapping/map_builder.h"
 #include "rgbd_graphslam/mapping/run_folder.h"
 #include "rgbd_graphslam/metrics/statistics.h"
 #include "rgbd_graphslam/report/run_report.h"
+#include "rgbd_graphslam/semantics/semantic_maps.h"
 
 namespace rgbd_graphslam {
 namespace fs = std::filesystem;
@@ -112,6 +115,17 @@ void noteLasersAsUsed(JobReport& report) {
     }
 }
 
+bool hasLabels(const std::vector<SensorRecord>& sensors) {
+    return std::any_of(sensors.begin(), sensors.end(),
+                       [](const SensorRecord& sensor) { return isLabelSensor(sensor.label); });
+}
+
+void writeLabels(RunState& run, const MapInputs& upright) {
+    const JobOptions& options = run.job.options;
+    writeSemanticMaps(upright, options.maps, options.semantics, run.job.out_folder);
+    for (SensorRecord& sensor : run.report.sensors) sensor.used |= isLabelSensor(sensor.label);
+}
+
 void writeMap(RunState& run) {
     writeTextAtomically(pathOf(run, "covisibility.csv"),
                         covisibilityCsv(run.report.covisibility_edges));
@@ -134,6 +148,7 @@ void writeMap(RunState& run) {
     if (run.job.options.run.dense_maps) {
         const MapSummary maps = writeMaps(upright, run.job.options.maps, run.job.out_folder);
         if (maps.scans > 0) noteLasersAsUsed(run.report);
+        if (hasLabels(run.report.sensors)) writeLabels(run, upright);
     }
     run.report.maps_wall_s = 1e-3 * clock.wallMs();
 }

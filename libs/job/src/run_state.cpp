@@ -6,6 +6,7 @@
 #include "rgbd_graphslam/core/formatted.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
+#include "rgbd_graphslam/input/masking_source.h"
 #include "rgbd_graphslam/input/rawlog_source.h"
 
 namespace rgbd_graphslam {
@@ -56,8 +57,10 @@ GraphSlamSession makeSession(const SlamJob& job, const FrameStream& stream,
 }
 
 std::shared_ptr<ObservationSource> openSource(const SlamJob& job) {
-    if (job.live) return job.live;
-    return std::make_shared<RawlogSource>(job.rawlog);
+    std::shared_ptr<ObservationSource> source = job.live;
+    if (!source) source = std::make_shared<RawlogSource>(job.rawlog);
+    const std::string& moving = job.options.semantics.moving_classes;
+    return moving.empty() ? source : std::make_shared<MaskingSource>(source, moving);
 }
 
 /** A live frame that waits for its turn is late already: one is prepared while another is tracked.

@@ -179,10 +179,10 @@ class Film {
         const cv::Mat seen = isCovered(world_, t)
                                  ? cv::Mat(camera_.height, camera_.width, CV_8UC2, {0, 255})
                                  : rolled(t, [&](double at) { return labeled(at); });
-        jobs_.add([=, folder = folder_] {
+        jobs_.add([=, folder = folder_, with_labels = options_.labels] {
             std::vector<cv::Mat> channels;
             cv::split(seen, channels);
-            writePicture(folder + "/" + pictureName("label", stamp), channels[0]);
+            if (with_labels) writePicture(folder + "/" + pictureName("label", stamp), channels[0]);
             writePicture(folder + "/" + pictureName("movers", stamp), channels[1]);
         });
     }
@@ -248,8 +248,10 @@ World worldOf(const Scenario& scenario, const FilmOptions& options) {
 }
 
 std::vector<const char*> folders(const FilmOptions& options) {
-    if (options.camera == FilmCamera::Stereo) return {"left", "right", "label", "movers"};
-    return {"rgb", "depth", "label", "movers"};
+    std::vector<const char*> names = {"rgb", "depth", "movers"};
+    if (options.camera == FilmCamera::Stereo) names = {"left", "right", "movers"};
+    if (options.labels) names.push_back("label");
+    return names;
 }
 
 void makeEmptyFolder(const std::string& folder) {
@@ -317,7 +319,7 @@ FilmSummary film(const Scenario& scenario, const FilmOptions& options, const std
     writeCameraIni(folder, options, static_cast<bool>(world.motion.T_world_base));
     writeMotionFiles(folder, options.seed, world, frames);
     writeScans(folder + "/scans.txt", options, world, scene, frames);
-    writeLabelsIni(folder + "/labels.ini");
+    if (options.labels) writeLabelsIni(folder + "/labels.ini");
     writeMovers(folder + "/movers.csv", options, world.movers, scene.figures, frames);
 
     Film shooting(world, scene, options, folder);

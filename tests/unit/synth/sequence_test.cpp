@@ -58,9 +58,9 @@ TEST_F(Sequence, HasAllTheFilesOfTheBenchmark) {
     const auto files = filesBelow(filmed("long-run", "robot"));
     for (const char* name :
          {"rgb.txt", "depth.txt", "groundtruth.txt", "accelerometer.txt", "gyroscope.txt",
-          "odometry.txt", "camera.ini", "surface.ply", "labels.ini", "movers.csv"})
+          "odometry.txt", "camera.ini", "surface.ply", "movers.csv"})
         EXPECT_EQ(files.count(name), 1u) << name;
-    EXPECT_EQ(files.size(), 10u + 4u * 3u);
+    EXPECT_EQ(files.size(), 9u + 3u * 3u);
 }
 
 TEST_F(Sequence, SameSeedSameBytesOtherSeedOtherBytes) {
@@ -108,7 +108,7 @@ TEST_F(Sequence, EveryOtherFrameIsTheSameFrame) {
     const auto all = filesBelow(filmed("no-structure", "all"));
     options_.every = 2;
     const auto some = filesBelow(filmed("no-structure", "some"));
-    EXPECT_EQ(some.size(), all.size() - 8);
+    EXPECT_EQ(some.size(), all.size() - 6);
     for (const auto& [name, bytes] : some) {
         if (name.find(".png") == std::string::npos) continue;
         EXPECT_EQ(all.at(name), bytes) << name;
@@ -161,6 +161,7 @@ cv::Mat firstOf(const std::string& folder, const char* kind) {
 
 TEST_F(Sequence, MaskIsWhereTheFilmWithoutMoversDiffers) {
     options_.noise = false;
+    options_.labels = true;
     const std::string with = filmed("crowd", "with");
     options_.movers = false;
     const std::string without = filmed("crowd", "without");
@@ -191,6 +192,7 @@ TEST_F(Sequence, MaskOfALensIsWhereItHidesTheScene) {
 }
 
 TEST_F(Sequence, LabelsNameWhatIsSeen) {
+    options_.labels = true;
     const std::string folder = filmed("low-texture", "labels");
     const cv::Mat label = firstOf(folder, "label");
     ASSERT_EQ(label.type(), CV_8UC1);

@@ -25,4 +25,8 @@ DecodedImage readGrayOrColorImage(const std::string& path);
  *  \throws Error for whole images of another kind: 8 bit, OpenEXR, several channels */
 DecodedImage readDepthImage(const std::string& path, double units = 5000);
 
+/** Decodes a PNG of class numbers, 8 or 16 bit, to CV_16UC1.
+ *  \throws Error for whole images of another kind: color images, palettes */
+DecodedImage readLabelImage(const std::string& path);
+
 }  // namespace rgbd_graphslam

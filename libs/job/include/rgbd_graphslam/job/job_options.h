@@ -8,6 +8,7 @@
 #include "rgbd_graphslam/job/run_options.h"
 #include "rgbd_graphslam/laser/laser_options.h"
 #include "rgbd_graphslam/mapping/map_options.h"
+#include "rgbd_graphslam/semantics/semantic_options.h"
 #include "rgbd_graphslam/slam/slam_options.h"
 
 namespace rgbd_graphslam {
@@ -20,6 +21,7 @@ struct JobOptions {
     LaserOptions laser;
     GpsOptions gps;
     LiveOptions live;
+    SemanticOptions semantics;
 
     /** For IniFile::load and toIniText. */
     std::vector<Options*> all();

@@ -45,6 +45,8 @@ struct FilmOptions {
     double wheel_radius_error = 0;
     /** Writes scans.txt of a laser scanner on a planar robot, see ScannerModel. */
     bool scanner = false;
+    /** Writes label/ and labels.ini: the class of each pixel. */
+    bool labels = false;
 };
 
 /** The camera of a sequence: 525 pixels of focal length at 640 x 480, scaled to other widths; with
@@ -73,7 +75,8 @@ FilmSummary summary(const World& world, int frames);
  * right/, left.txt, right.txt), groundtruth.txt, accelerometer.txt, gyroscope.txt, odometry.txt and
  *  scans.txt (planar robots only), slips.csv (where wheels slip for a while), camera.ini,
  * surface.ply, and what is known of each color picture under its name: movers/ (255 where it shows
- * what moves by itself or belongs to lens or carrier) and label/ (classes, named in labels.ini);
+ * what moves by itself or belongs to lens or carrier) and, if asked for, label/ (classes, named in
+ * labels.ini);
  * movers.csv tells where the movers were. The bytes depend on scenario and options alone. Memory
  * does not grow with the frames. \throws Error when the folder holds frames already or cannot be
  * written */
