@@ -99,8 +99,9 @@ int main(int argc, char** argv) {
         MapInputs inputs = readRunFolder(arguments.folder, arguments.rawlog);
         if (arguments.upright) inputs = transformed(T_gravity_world(inputs, options), inputs);
         const MapSummary summary = writeMaps(inputs, options, folder);
-        if (hasLabels(arguments.folder)) {
-            writeSemanticMaps(inputs, options, semanticOptionsOf(arguments), folder);
+        const SemanticOptions semantics = semanticOptionsOf(arguments);
+        if (!semantics.model.empty() || hasLabels(arguments.folder)) {
+            writeSemanticMaps(inputs, options, semantics, folder);
         }
         std::size_t scans = 0;
         if (arguments.scans_per_s > 0)

@@ -1,13 +1,19 @@
 /** Label images from a folder to the map: rgbd-import, rgbd-slam, rgbd-map. */
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
 
+#include "../support/small_onnx.h"
 #include "../support/synthetic_film.h"
+#include "../support/tum_folder.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -127,6 +133,27 @@ TEST(Labels, peopleThatAreLabeledDisturbNeitherTrackingNorMap) {
     std::size_t people = 0;
     for (const auto& [place, label] : labels) people += label == 21;
     EXPECT_LE(people, labels.size() / 1000) << "people are in no map";
+}
+
+TEST(Labels, aNetworkLabelsKeyframes) {
+    const std::string film = filmOf("office", "--frames 60 --every 2 --size 320x240");
+    if (HasFatalFailure()) return;
+    const TestFolder folder;
+    // Class 1 is what is darker than it is bright, class 2 the rest.
+    writeSmallOnnx(folder / "light.onnx", 320, 240, {0, 0, 0, -1, -1, -1, 1, 1, 1},
+                   {-9, 1.5F, -1.5F});
+    folder.write("names.ini", "[1]\nname = dark\n[2]\nname = bright\n");
+    const std::string run =
+        mapped(film, folder / "run",
+               "--set 'SemanticOptions.model=" + folder / "light.onnx" +
+                   "' --set 'SemanticOptions.model_labels=" + folder / "names.ini" + "'");
+    if (HasFatalFailure()) return;
+    const auto labels = labelsOf(run + "/labels.ply");
+    std::array<std::size_t, 3> counts{};
+    for (const auto& [place, label] : labels) ++counts.at(static_cast<std::size_t>(label));
+    EXPECT_GT(counts[1], labels.size() / 20);
+    EXPECT_GT(counts[2], labels.size() / 20);
+    EXPECT_EQ(json::parse(std::ifstream(run + "/objects.json"))["classes"]["2"], "bright");
 }
 
 }  // namespace

@@ -148,7 +148,8 @@ void writeMap(RunState& run) {
     if (run.job.options.run.dense_maps) {
         const MapSummary maps = writeMaps(upright, run.job.options.maps, run.job.out_folder);
         if (maps.scans > 0) noteLasersAsUsed(run.report);
-        if (hasLabels(run.report.sensors)) writeLabels(run, upright);
+        const bool has_model = !run.job.options.semantics.model.empty();
+        if (has_model || hasLabels(run.report.sensors)) writeLabels(run, upright);
     }
     run.report.maps_wall_s = 1e-3 * clock.wallMs();
 }

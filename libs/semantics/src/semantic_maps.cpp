@@ -14,6 +14,7 @@
 #include "rgbd_graphslam/dataset/label_observation.h"
 #include "rgbd_graphslam/mapping/keyframe_reader.h"
 #include "rgbd_graphslam/mapping/plan_view.h"
+#include "rgbd_graphslam/semantics/segmentation_network.h"
 #include "semantic_files.h"
 
 namespace rgbd_graphslam {
@@ -52,23 +53,42 @@ Trajectory ownKeyframes(const MapInputs& inputs) {
             inputs.keyframes.end()};
 }
 
-LabeledMap labeledMap(const MapInputs& inputs, const MapOptions& options, double voxel_m) {
-    LabeledMap map(voxel_m);
-    LabelCollector labels;
-    std::string camera_label = inputs.sensor_label;
+/** Where the labels of a keyframe come from: label images of the recording, or a network. */
+class LabelSource {
+  public:
+    LabelSource(const SemanticOptions& options, std::string camera_label)
+        : camera_label_(std::move(camera_label)), any_camera_(camera_label_.empty()) {
+        if (!options.model.empty()) network_.emplace(options);
+    }
+    void note(const mrpt::obs::CObservation& entry) {
+        recorded_.note(entry);
+        if (any_camera_ && isLabelSensor(entry.sensorLabel))
+            camera_label_ = cameraOfLabels(entry.sensorLabel);
+    }
+    cv::Mat of(const Keyframe3D& keyframe) {
+        if (!network_) return recorded_.of(camera_label_, keyframe.pose.stamp_s);
+        return keyframe.image.color.empty() ? cv::Mat() : network_->labelsOf(keyframe.image.color);
+    }
+    const LabelSet& names() const { return network_ ? network_->names() : recorded_.names(); }
+
+  private:
+    LabelCollector recorded_;
+    std::optional<SegmentationNetwork> network_;
+    std::string camera_label_;
+    bool any_camera_;
+};
+
+LabeledMap labeledMap(const MapInputs& inputs, const MapOptions& maps,
+                      const SemanticOptions& options) {
+    LabeledMap map(options.label_voxel_m);
+    LabelSource labels(options, inputs.sensor_label);
     forEachKeyframe(
         {inputs.rawlog, inputs.sensor_label}, ownKeyframes(inputs), "labels",
         [&](const Keyframe3D& keyframe) {
-            const cv::Mat seen = labels.of(camera_label, keyframe.pose.stamp_s);
-            if (seen.size() == keyframe.image.depth.size())
-                map.add(keyframe, seen, inputs, options);
+            const cv::Mat seen = labels.of(keyframe);
+            if (seen.size() == keyframe.image.depth.size()) map.add(keyframe, seen, inputs, maps);
         },
-        [&](const mrpt::obs::CObservation& entry) {
-            labels.note(entry);
-            if (isLabelSensor(entry.sensorLabel) && inputs.sensor_label.empty()) {
-                camera_label = cameraOfLabels(entry.sensorLabel);
-            }
-        });
+        [&](const mrpt::obs::CObservation& entry) { labels.note(entry); });
     map.names = labels.names();
     return map;
 }
@@ -114,7 +134,7 @@ bool hasLabels(const std::string& run_folder) {
 SemanticSummary writeSemanticMaps(const MapInputs& inputs, const MapOptions& maps,
                                   const SemanticOptions& options, const std::string& out_folder) {
     const MapInputs connected = withoutDisconnected(inputs);
-    const LabeledMap map = labeledMap(connected, maps, options.label_voxel_m);
+    const LabeledMap map = labeledMap(connected, maps, options);
     if (map.views.empty()) {
         removeOldFiles(out_folder);
         return {};

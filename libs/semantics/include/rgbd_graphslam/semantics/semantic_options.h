@@ -9,6 +9,13 @@ namespace rgbd_graphslam {
 /** Section `[SemanticOptions]`. */
 struct SemanticOptions : Options {
     std::string moving_classes;
+    std::string model;
+    std::string model_labels;
+    bool model_has_background = true;
+    int model_width = 0;
+    int model_height = 0;
+    double model_scale = 1.0 / 255;
+    double model_mean = 0;
     double label_voxel_m = 0.02;
     double frame_accuracy = 0.8;
     double min_confidence = 0.6;
