@@ -85,7 +85,10 @@ LabeledMap labeledMap(const MapInputs& inputs, const MapOptions& maps,
     forEachKeyframe(
         {inputs.rawlog, inputs.sensor_label}, ownKeyframes(inputs), "labels",
         [&](const Keyframe3D& keyframe) {
-            const cv::Mat seen = labels.of(keyframe);
+            cv::Mat seen = labels.of(keyframe);
+            for (const int moving : labelsNamed(labels.names(), options.moving_classes)) {
+                seen.setTo(0, seen == moving);
+            }
             if (seen.size() == keyframe.image.depth.size()) map.add(keyframe, seen, inputs, maps);
         },
         [&](const mrpt::obs::CObservation& entry) { labels.note(entry); });
