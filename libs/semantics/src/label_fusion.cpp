@@ -1,12 +1,13 @@
 #include "rgbd_graphslam/semantics/label_fusion.h"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
 namespace rgbd_graphslam {
 namespace {
 
-constexpr int step_px = 2, sight_step_px = 8, outline_px = 2;
+constexpr int columns = 320, sights_per_row = 80, outline_px = 2;
 
 /** The labels without the pixels near those of other classes. */
 cv::Mat1w withoutOutlines(const cv::Mat& labels) {
@@ -32,6 +33,9 @@ std::vector<LabelSight> LabelFusion::insert(const SE3& T_world_cam, const DepthV
     std::vector<LabelSight> sights;
     const cv::Mat1w inner = withoutOutlines(labels);
     frame_.clear();
+    // A pixel of 320 columns covers a centimeter at 3 m: more would say the same again.
+    const int step_px = std::max(1, inner.cols / columns);
+    const int sight_step_px = step_px * (columns / sights_per_row);
     for (int v = 0; v < inner.rows; v += step_px) {
         for (int u = 0; u < inner.cols; u += step_px) {
             const float z = view.depth(v, u);

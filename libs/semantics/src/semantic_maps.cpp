@@ -53,6 +53,20 @@ Trajectory ownKeyframes(const MapInputs& inputs) {
             inputs.keyframes.end()};
 }
 
+/** Frames that label images are taken of: more than keyframes, since wrong images are to be
+ *  outvoted. A network takes its time, and gets keyframes only. */
+Trajectory framesToLabel(const MapInputs& inputs, const SemanticOptions& options) {
+    constexpr double shortest_s = 0.03;
+    if (!options.model.empty()) return ownKeyframes(inputs);
+    Trajectory frames;
+    for (const StampedPose& pose : inputs.trajectory) {
+        if (frames.empty() || pose.stamp_s - frames.back().stamp_s > shortest_s) {
+            frames.push_back(pose);
+        }
+    }
+    return frames;
+}
+
 /** Where the labels of a keyframe come from: label images of the recording, or a network. */
 class LabelSource {
   public:
@@ -83,7 +97,7 @@ LabeledMap labeledMap(const MapInputs& inputs, const MapOptions& maps,
     LabeledMap map(options.label_voxel_m);
     LabelSource labels(options, inputs.sensor_label);
     forEachKeyframe(
-        {inputs.rawlog, inputs.sensor_label}, ownKeyframes(inputs), "labels",
+        {inputs.rawlog, inputs.sensor_label}, framesToLabel(inputs, options), "labels",
         [&](const Keyframe3D& keyframe) {
             cv::Mat seen = labels.of(keyframe);
             for (const int moving : labelsNamed(labels.names(), options.moving_classes)) {

@@ -10,7 +10,7 @@ namespace rgbd_graphslam {
 
 /** What was written. */
 struct SemanticSummary {
-    std::size_t labeled_keyframes = 0, voxels = 0, objects = 0;
+    std::size_t labeled_frames = 0, voxels = 0, objects = 0;
 };
 
 /** Whether the recording of a finished run has label images, by its summary.json. */

@@ -18,7 +18,7 @@ struct SemanticOptions : Options {
     double model_mean = 0;
     double label_voxel_m = 0.02;
     double frame_accuracy = 0.8;
-    double min_confidence = 0.6;
+    double min_confidence = 0.9;
     std::string stuff_classes =
         "wall floor ceiling outside rug road sidewalk grass ground sky building";
     double object_gap_m = 0.06;
