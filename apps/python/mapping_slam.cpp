@@ -8,19 +8,20 @@ namespace rgbd_graphslam {
 TrackedFrame MappingSlam::track(const RgbdImage& image) {
     const TrackedFrame tracked = slam_.track(slam_.prepare(image));
     if (!tracked.keyframe) return tracked;
-    images_.add(*tracked.keyframe, image);
+    images_.add(image);
     slam_.closeLoops(*tracked.keyframe);
     for (const KeyframeView& keyframe : slam_.keyframes()) {
-        if (keyframe.culled) images_.drop(keyframe.id);
+        if (keyframe.culled) images_.drop(keyframe.stamp_s);
     }
     return tracked;
 }
 
-std::vector<KeyframeView> MappingSlam::mapped() const {
+Trajectory MappingSlam::mapped() const {
     constexpr int first_submap = 0;
-    std::vector<KeyframeView> mapped;
+    Trajectory mapped;
     for (const KeyframeView& keyframe : slam_.keyframes()) {
-        if (keyframe.submap == first_submap && images_.has(keyframe.id)) mapped.push_back(keyframe);
+        if (keyframe.submap == first_submap && images_.has(keyframe.stamp_s))
+            mapped.push_back({keyframe.stamp_s, keyframe.T_world_cam});
     }
     if (mapped.empty()) throw Error("there is no map yet", "track frames first");
     return mapped;
@@ -29,21 +30,20 @@ std::vector<KeyframeView> MappingSlam::mapped() const {
 SE3 MappingSlam::T_up_world() const {
     GravityAligner survey{MapOptions()};
     MapInputs inputs;
-    for (const KeyframeView& keyframe : mapped()) {
-        survey.addKeyframe(inputs.keyframes.size(), images_[keyframe.id], camera_);
-        inputs.keyframes.push_back({keyframe.stamp_s, keyframe.T_world_cam});
-    }
-    inputs.trajectory = inputs.keyframes;
+    inputs.keyframes = inputs.trajectory = mapped();
+    images_.forEach(inputs.keyframes, "finding the floor", [&](const Keyframe3D& keyframe) {
+        survey.addKeyframe(keyframe.index, keyframe.image, camera_);
+    });
     return survey.T_gravity_world(inputs, SE3());
 }
 
 DenseMapper MappingSlam::denseMaps(const MapOptions& options) const {
     const SE3 T_up = T_up_world();
     DenseMapper maps(options, camera_);
-    for (const KeyframeView& keyframe : mapped()) {
-        maps.insert(T_up * keyframe.T_world_cam, images_[keyframe.id]);
+    images_.forEach(mapped(), "mapping", [&](const Keyframe3D& keyframe) {
+        maps.insert(T_up * keyframe.pose.T_world_cam, keyframe.image);
         maps.checkMemory();
-    }
+    });
     maps.finish();
     return maps;
 }

@@ -2,8 +2,8 @@
 #pragma once
 #include <mrpt/maps/COccupancyGridMap2D.h>
 
-#include "keyframe_images.h"
 #include "rgbd_graphslam/mapping/dense_mapper.h"
+#include "rgbd_graphslam/mapping/packed_images.h"
 #include "rgbd_graphslam/slam/visual_slam.h"
 
 namespace rgbd_graphslam {
@@ -14,7 +14,7 @@ class MappingSlam {
   public:
     /** \throws Error for settings or a calibration that cannot be */
     MappingSlam(const SlamOptions& options, const Intrinsics& camera)
-        : camera_(camera), slam_(options, camera_) {}
+        : camera_(camera), slam_(options, camera_), images_(camera_) {}
 
     /** Pose of the next frame; closes loops where it becomes a keyframe.
      *  \throws Error for images of another size, or a stamp that is not later than the last one's
@@ -36,12 +36,12 @@ class MappingSlam {
 
   private:
     /** Those whose place is known and whose images are kept. */
-    std::vector<KeyframeView> mapped() const;
+    Trajectory mapped() const;
     DenseMapper denseMaps(const MapOptions& options) const;
 
     CameraModel camera_;
     VisualSlam slam_;
-    KeyframeImages images_;
+    PackedImages images_;
 };
 
 }  // namespace rgbd_graphslam

@@ -8,7 +8,7 @@
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/formatted.h"
-#include "rgbd_graphslam/mapping/keyframe_reader.h"
+#include "rgbd_graphslam/mapping/recorded_images.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -58,11 +58,11 @@ class ImageReader {
     ImageReader(std::string label, const std::function<void(const RunImage&)>& consume)
         : label_(std::move(label)), consume_(consume) {}
 
-    std::size_t read(const RecordedCamera& camera, const std::vector<NumberedKeyframe>& poses) {
+    std::size_t read(const KeyframeImages& images, const std::vector<NumberedKeyframe>& poses) {
         if (poses.empty()) return 0;
         Trajectory trajectory;
         for (const NumberedKeyframe& pose : poses) trajectory.push_back(pose.pose);
-        return forEachKeyframe(camera, trajectory, label_, [&](const Keyframe3D& frame) {
+        return images.forEach(trajectory, label_, [&](const Keyframe3D& frame) {
             pass(frame, poses[frame.index].number);
         });
     }
@@ -92,14 +92,14 @@ std::size_t readKeyframes(const MapInputs& run, ImageReader& reader) {
     const auto readUpTo = [&](int end, const RecordedCamera& camera) {
         const auto stop = std::find_if(begin, placed.end(),
                                        [&](const NumberedKeyframe& k) { return k.number >= end; });
-        read += reader.read(camera, {begin, stop});
+        read += reader.read(RecordedImages(camera), {begin, stop});
         begin = stop;
     };
     for (const EarlierSession& session : run.earlier) {
         session_end += static_cast<int>(session.keyframes);
-        readUpTo(session_end, {session.rawlog, session.sensor_label});
+        readUpTo(session_end, {session.rawlog, session.sensor_label, session.entries});
     }
-    readUpTo(static_cast<int>(run.keyframes.size()), {run.rawlog, run.sensor_label});
+    readUpTo(static_cast<int>(run.keyframes.size()), {run.rawlog, run.sensor_label, run.entries});
     return read;
 }
 
@@ -148,7 +148,7 @@ std::size_t forEachImage(const MapInputs& run, bool all_frames, const std::strin
     std::vector<NumberedKeyframe> frames;
     for (const StampedPose& pose : run.trajectory)
         frames.push_back({static_cast<int>(frames.size()), pose});
-    return reader.read({run.rawlog, run.sensor_label}, frames);
+    return reader.read(RecordedImages({run.rawlog, run.sensor_label, run.entries}), frames);
 }
 
 std::string imageName(const char* prefix, int number, const char* extension) {

@@ -235,6 +235,7 @@ class FrameStream::Implementation {
         if (other.camera < frame.camera) {
             std::swap(frame.observation, other.observation);
             std::swap(frame.camera, other.camera);
+            std::swap(frame.entry, other.entry);
         }
         frame.others.emplace_back(other.camera, std::move(other.observation));
         std::sort(frame.others.begin(), frame.others.end(),
@@ -310,6 +311,7 @@ class FrameStream::Implementation {
         if (ended_) return std::nullopt;
         ended_ = true;  // for good, should reading throw
         while (const auto observation = source_->next()) {
+            const std::size_t entry = entries_read_++;
             auto frame = asRgbdFrame(observation);
             if (frame) takeIntoRig(frame);
             note(*observation);
@@ -328,6 +330,7 @@ class FrameStream::Implementation {
             StreamedFrame read;
             read.before = std::exchange(before_, {});
             read.index = index;
+            read.entry = entry;
             read.reckoning = reckoner_.at(toSeconds(frame->timestamp), cameraOnRobot(*first_));
             read.readings = readings_.take(cameraOnRobot(*first_));
             read.observation = std::move(frame);
@@ -407,7 +410,7 @@ class FrameStream::Implementation {
     std::deque<StreamedFrame> pending_;
     std::exception_ptr damage_;  // behind the pending frames
     CObservation3DRangeScan::Ptr first_;
-    std::size_t frames_read_ = 0;
+    std::size_t frames_read_ = 0, entries_read_ = 0;
 
     std::deque<StreamedFrame> read_;    // one observation each
     std::exception_ptr damage_behind_;  // the observations read

@@ -77,6 +77,7 @@ void readOver(RunState& run) {
         if (left_out) continue;
         if (!run.first_stamp_s) run.first_stamp_s = known->stamp_s;
         run.last_stamp_s = known->stamp_s;
+        run.noteEntry(*frame);
         if (known->keyframe) run.keepPictures(*known->keyframe, frame->observation);
         ++known;
     }

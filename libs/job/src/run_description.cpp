@@ -4,6 +4,7 @@
 #include <map>
 
 #include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/report/run_findings.h"
 #include "truth_comparison.h"
 
@@ -74,12 +75,25 @@ void describeSensors(RunState& run) {
     }
 }
 
+/** Runs of earlier versions have none; their frames are known by their stamps. */
+std::vector<FrameEntries> earlierEntries(const std::string& map_folder) {
+    try {
+        return readFrameEntries(map_folder + "/" + frame_entries_name);
+    } catch (const Error& e) {
+        sayWarning(e.what());
+        return {};
+    }
+}
+
 void describeEarlierSessions(RunState& run) {
     const auto all = run.sessions();
+    if (all.size() < 2) return;
+    auto entries = earlierEntries(run.job.map_folder);
+    entries.resize(all.size() - 1);
     for (std::size_t s = 0; s + 1 < all.size(); ++s) {
         const int keyframes = all[s + 1].first_keyframe - all[s].first_keyframe;
-        run.report.earlier.push_back(
-            {all[s].rawlog, static_cast<std::size_t>(keyframes), all[s].sensor_label});
+        run.report.earlier.push_back({all[s].rawlog, static_cast<std::size_t>(keyframes),
+                                      all[s].sensor_label, std::move(entries[s])});
     }
 }
 

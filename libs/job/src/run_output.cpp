@@ -38,6 +38,7 @@ MapInputs mapInputs(const RunState& run) {
     MapInputs inputs;
     inputs.rawlog = run.job.rawlog;
     inputs.sensor_label = run.job.sensor_label;
+    inputs.entries = run.entries;
     inputs.earlier = run.report.earlier;
     inputs.trajectory = run.located();
     inputs.unplaced_s = run.unplaced();
@@ -56,6 +57,14 @@ MapInputs mapInputs(const RunState& run) {
 
 std::string pathOf(const RunState& run, const std::string& name) {
     return run.job.out_folder + "/" + name;
+}
+
+/** In order of the sessions. */
+std::vector<FrameEntries> entriesOf(const MapInputs& inputs) {
+    std::vector<FrameEntries> sessions;
+    for (const EarlierSession& session : inputs.earlier) sessions.push_back(session.entries);
+    sessions.push_back(inputs.entries);
+    return sessions;
 }
 
 void writePoses(const RunState& run, const std::string& name, const Trajectory& poses) {
@@ -131,6 +140,7 @@ void writeMap(RunState& run) {
                         covisibilityCsv(run.report.covisibility_edges));
     const MapInputs inputs = mapInputs(run);
     if (inputs.keyframes.empty()) refuseEmptyMap(run);
+    writeTextAtomically(pathOf(run, frame_entries_name), frameEntriesCsv(entriesOf(inputs)));
     const SE3 T_up_world = run.start ? run.start->T_up_world
                                      : run.level.T_gravity_world(inputs, run.session.T_base_cam());
     MapSnapshot map = run.session.slam().snapshot();

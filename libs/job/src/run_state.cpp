@@ -96,6 +96,11 @@ void RunState::noteKeyframe(int keyframe) {
                                                : SE3());
 }
 
+void RunState::noteEntry(const StreamedFrame& frame) {
+    if (frame.camera == 0)
+        entries.push_back({toSeconds(frame.observation->timestamp), frame.entry});
+}
+
 void RunState::keepPictures(int keyframe,
                             const mrpt::obs::CObservation3DRangeScan::Ptr& observation) {
     if (job.localizes()) return;

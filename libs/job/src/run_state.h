@@ -29,6 +29,8 @@ struct RunState {
 
     /** Notes how tracking placed a new keyframe. */
     void noteKeyframe(int keyframe);
+    /** Remembers where the images of a frame are. */
+    void noteEntry(const StreamedFrame& frame);
     /** Of the frame last looked at: what report and maps will need. */
     void keepPictures(int keyframe, const mrpt::obs::CObservation3DRangeScan::Ptr& observation);
 
@@ -64,6 +66,7 @@ struct RunState {
     KeyframeSheet keyframe_sheet;
     GravityAligner level;
     SensorWatch sensors;
+    FrameEntries entries;              // of the first camera's frames
     Trajectory truth;  // beside the estimate, in its world
 };
 

@@ -100,6 +100,7 @@ void TrackingLoop::trackOne(StreamedFrame& frame) {
     run_.last_stamp_s = stamp_s;
     if (!run_.first_stamp_s) run_.first_stamp_s = stamp_s;
     ++run_.report.frames;
+    run_.noteEntry(frame);
     const ThreadClock clock;
     run_.sensors.withhold(frame.prepared);
     tracked_ = &frame;

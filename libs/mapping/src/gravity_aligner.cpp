@@ -11,7 +11,8 @@
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/dataset/sensor_remedy.h"
 #include "rgbd_graphslam/dataset/tracked_motion.h"
-#include "rgbd_graphslam/mapping/keyframe_reader.h"
+#include "rgbd_graphslam/mapping/depth_timing.h"
+#include "rgbd_graphslam/mapping/recorded_images.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -225,8 +226,9 @@ SE3 T_gravity_world(const MapInputs& inputs, const MapOptions& options) {
     for (std::size_t k = 0; k < inputs.keyframes.size(); k += step) {
         some.push_back(inputs.keyframes[k]);
     }
-    forEachKeyframe(
-        {inputs.rawlog, inputs.sensor_label}, some, "finding the floor",
+    const RecordedImages images({inputs.rawlog, inputs.sensor_label, inputs.entries});
+    images.forEach(
+        some, "finding the floor",
         [&](const Keyframe3D& keyframe) {
             T_base_cam = keyframe.T_base_cam;
             survey.addKeyframe(step * keyframe.index, keyframe.image, keyframe.camera);

@@ -13,12 +13,13 @@
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/core/thread_clock.h"
 #include "rgbd_graphslam/mapping/dense_mapper.h"
-#include "rgbd_graphslam/mapping/keyframe_reader.h"
+#include "rgbd_graphslam/mapping/depth_timing.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 #include "rgbd_graphslam/mapping/map_scene.h"
 #include "rgbd_graphslam/mapping/moving_filter.h"
 #include "rgbd_graphslam/mapping/perspective_view.h"
 #include "rgbd_graphslam/mapping/plan_view.h"
+#include "rgbd_graphslam/mapping/recorded_images.h"
 #include "rgbd_graphslam/mapping/simple_map.h"
 #include "rgbd_graphslam/mapping/view_coverage.h"
 #include "scan_layer.h"
@@ -71,9 +72,9 @@ struct Maps {
     }
 };
 
-/** A rawlog with the poses of those of its frames that are looked at. */
+/** The images of a session with the poses of those of its frames that are looked at. */
 struct Recording {
-    RecordedCamera camera;
+    RecordedImages images;
     Trajectory keyframes, sights;
     bool is_earlier;
 };
@@ -85,9 +86,11 @@ std::vector<Recording> recordingsOf(const MapInputs& inputs) {
     for (const EarlierSession& session : inputs.earlier) {
         const Trajectory keyframes(begin, begin + static_cast<std::ptrdiff_t>(session.keyframes));
         begin += static_cast<std::ptrdiff_t>(session.keyframes);
-        recordings.push_back({{session.rawlog, session.sensor_label}, keyframes, keyframes, true});
+        recordings.push_back(
+            {RecordedImages({session.rawlog, session.sensor_label, session.entries}), keyframes,
+             keyframes, true});
     }
-    recordings.push_back({{inputs.rawlog, inputs.sensor_label},
+    recordings.push_back({RecordedImages({inputs.rawlog, inputs.sensor_label, inputs.entries}),
                           {begin, inputs.keyframes.end()},
                           sightsOf(inputs),
                           false});
@@ -99,10 +102,10 @@ void addSights(Maps& maps, const MapInputs& inputs, const std::vector<Recording>
     for (std::size_t i = 0; i < recordings.size(); ++i) {
         if (recordings[i].sights.empty()) continue;
         try {
-            forEachKeyframe(recordings[i].camera, recordings[i].sights, "free space",
-                            [&](const Keyframe3D& frame) {
-                                maps.addSight(frame, inputs, static_cast<int>(i));
-                            });
+            recordings[i].images.forEach(recordings[i].sights, "free space",
+                                         [&](const Keyframe3D& frame) {
+                                             maps.addSight(frame, inputs, static_cast<int>(i));
+                                         });
         } catch (const Error& e) {
             sayDetail(std::string("not all frames tell of free space: ") + e.what());
         }
@@ -120,8 +123,8 @@ std::size_t addSessions(Maps& maps, const MapInputs& inputs, const MapOptions& o
             const Trajectory& way =
                 recordings[i].is_earlier ? recordings[i].keyframes : inputs.trajectory;
             std::optional<SE3> T_base_cam;
-            added += forEachKeyframe(
-                recordings[i].camera, recordings[i].keyframes, "mapping",
+            added += recordings[i].images.forEach(
+                recordings[i].keyframes, "mapping",
                 [&](const Keyframe3D& keyframe) {
                     maps.add(keyframe, inputs, options, static_cast<int>(i));
                     T_base_cam = keyframe.T_base_cam;

@@ -91,6 +91,14 @@ std::vector<double> unplacedFrames(const fs::path& frames_csv, const Trajectory&
     return stamps_s;
 }
 
+/** \param sessions the earlier ones and the run's own */
+void takeEntries(std::vector<FrameEntries> sessions, MapInputs& inputs) {
+    if (sessions.size() != inputs.earlier.size() + 1) return;
+    for (std::size_t i = 0; i < inputs.earlier.size(); ++i)
+        inputs.earlier[i].entries = std::move(sessions[i]);
+    inputs.entries = std::move(sessions.back());
+}
+
 }  // namespace
 
 bool tellOfGuessedUp(const std::vector<std::string>& warnings) {
@@ -144,6 +152,7 @@ MapInputs readRunFolder(const std::string& folder, const std::string& rawlog) {
                         (root / "summary.json").string() + "' is not what rgbd-slam writes",
                     "run rgbd-slam again");
     }
+    if (rawlog.empty()) takeEntries(readFrameEntries((root / frame_entries_name).string()), inputs);
     const fs::path before = root / "keyframes_before_loops.txt";
     if (fs::exists(before)) inputs.keyframes_before_loops = readTumPoses(before.string());
     return inputs;

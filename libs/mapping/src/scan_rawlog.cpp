@@ -7,8 +7,9 @@
 
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
-#include "rgbd_graphslam/mapping/keyframe_reader.h"
+#include "rgbd_graphslam/mapping/depth_timing.h"
 #include "rgbd_graphslam/mapping/level_scan.h"
+#include "rgbd_graphslam/mapping/recorded_images.h"
 
 namespace rgbd_graphslam {
 namespace {
@@ -50,8 +51,8 @@ std::size_t writeScans(const MapInputs& inputs, const MapOptions& options, doubl
         std::optional<RayTable> rays;
         auto about = provenance(poses.front().stamp_s);
         rawlog.write(about);
-        const RecordedCamera camera(inputs.rawlog, inputs.sensor_label);
-        scans = forEachKeyframe(camera, poses, "scans", [&](const Keyframe3D& frame) {
+        const RecordedImages images({inputs.rawlog, inputs.sensor_label, inputs.entries});
+        scans = images.forEach(poses, "scans", [&](const Keyframe3D& frame) {
             if (!rays) rays.emplace(frame.camera);
             const SE3 T_up_cam = depthPose(frame.pose, frame.depth_stamp_s, inputs.trajectory);
             const SE3 T_up_base = basePose(T_up_cam);

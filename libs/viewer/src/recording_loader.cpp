@@ -33,8 +33,8 @@ KeyframePicture pictureOf(const Keyframe3D& keyframe) {
 
 }  // namespace
 
-RecordingLoader::RecordingLoader(RecordedCamera camera, Trajectory keyframes)
-    : camera_(std::move(camera)), keyframes_(std::move(keyframes)), thread_([this] { read(); }) {}
+RecordingLoader::RecordingLoader(std::unique_ptr<const KeyframeImages> images, Trajectory keyframes)
+    : images_(std::move(images)), keyframes_(std::move(keyframes)), thread_([this] { read(); }) {}
 
 RecordingLoader::~RecordingLoader() {
     {
@@ -62,7 +62,7 @@ void RecordingLoader::read() {
 }
 
 void RecordingLoader::readPictures() {
-    forEachKeyframe(camera_, keyframes_, "images", [&](const Keyframe3D& keyframe) {
+    images_->forEach(keyframes_, "images", [&](const Keyframe3D& keyframe) {
         KeyframePicture picture = pictureOf(keyframe);
         const std::lock_guard lock(mutex_);
         if (stop_) throw Stopped();

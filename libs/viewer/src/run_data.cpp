@@ -128,6 +128,7 @@ void readPoses(const fs::path& folder, RunData& run) {
     run.rawlog = std::move(inputs.rawlog);
     run.up_is_guessed = upIsGuessed(folder.string());
     run.sensor_label = std::move(inputs.sensor_label);
+    run.entries = std::move(inputs.entries);
     run.trajectory = std::move(inputs.trajectory);
     run.unplaced_s = std::move(inputs.unplaced_s);
     run.earlier_keyframes = sessionLengths(inputs);

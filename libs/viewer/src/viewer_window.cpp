@@ -10,6 +10,7 @@
 
 #include "panel_contents.h"
 #include "rgbd_graphslam/core/atomic_file.h"
+#include "rgbd_graphslam/mapping/recorded_images.h"
 #include "scene_overlay.h"
 
 namespace rgbd_graphslam {
@@ -55,7 +56,8 @@ void ViewerWindow::open(RunData run) {
     const bool has_recording = !run.rawlog.empty();
     loader_.reset();
     if (has_recording) {
-        loader_ = std::make_unique<RecordingLoader>(RecordedCamera(run.rawlog, run.sensor_label),
+        loader_ = std::make_unique<RecordingLoader>(std::make_unique<RecordedImages>(RecordedCamera(
+                                                        run.rawlog, run.sensor_label, run.entries)),
                                                     run.keyframes);
     }
     all_read_ = !has_recording;

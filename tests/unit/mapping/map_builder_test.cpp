@@ -32,7 +32,8 @@
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/geometry/ply.h"
-#include "rgbd_graphslam/mapping/keyframe_reader.h"
+#include "rgbd_graphslam/mapping/depth_timing.h"
+#include "rgbd_graphslam/mapping/recorded_images.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 #include "rgbd_graphslam/mapping/map_scene.h"
 #include "rgbd_graphslam/mapping/run_folder.h"
@@ -247,7 +248,7 @@ TEST_F(MapBuilder, depthIsPlacedWhereTheCameraWasWhenItWasTaken) {
     const SE3 T_other_world(rotationExp({0.1, 0.2, 0.3}), {1, 2, 3});
     const Trajectory other = transformed(T_other_world, inputs_).trajectory;
     std::size_t late = 0;
-    forEachKeyframe(inputs_.rawlog, inputs_.keyframes, "reading", [&](const Keyframe3D& keyframe) {
+    RecordedImages({inputs_.rawlog}).forEach(inputs_.keyframes, "reading", [&](const Keyframe3D& keyframe) {
         const SE3& T = keyframe.pose.T_world_cam;
         const double delay_s = keyframe.depth_stamp_s - keyframe.pose.stamp_s;
         if (keyframe.index != 3) {

@@ -21,6 +21,8 @@ class StereoFrame : public mrpt::obs::CObservation3DRangeScan {
     /** The rectified pair without `depth`. `gray` is there always, `color` of color cameras.
      *  \throws Error naming the stamp when an image is missing, unreadable or not of its size */
     RgbdImage images() const;
+    /** As it was taken. */
+    const mrpt::obs::CObservationStereoImages::Ptr& pair() const { return pair_; }
     /** Focal length times baseline, m px. */
     double disparityInMeterPixels() const { return rectifier_->disparityInMeterPixels(); }
 

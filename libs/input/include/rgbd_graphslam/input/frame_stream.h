@@ -28,6 +28,8 @@ struct StreamedFrame {
     std::size_t index = 0;
     /** Of the camera with the lowest number among those that took part. */
     mrpt::obs::CObservation3DRangeScan::Ptr observation;
+    /** Which of the source's observations that is, counted from 0. */
+    std::size_t entry = 0;
     /** Number of that camera in the rig. */
     int camera = 0;
     /** What other cameras took at the same moment, by rising number of the camera. */

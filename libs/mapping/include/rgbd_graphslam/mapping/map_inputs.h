@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/mapping/frame_entries.h"
 
 namespace rgbd_graphslam {
 
@@ -18,12 +19,14 @@ struct EarlierSession {
     std::string rawlog;
     std::size_t keyframes = 0;
     std::string sensor_label = {};  // of its camera; empty = that of the first frame
+    FrameEntries entries = {};      // where its frames are, if that is known
 };
 
 /** What maps are made of. Poses are of the camera's optical frame. */
 struct MapInputs {
     std::string rawlog;        // where the images are
     std::string sensor_label;  // of their camera; empty = that of the first frame
+    FrameEntries entries;      // where its frames are, if that is known
     Trajectory keyframes;      // the maps are made of these; in order of time within a session
     /** Every frame; places depth images between color stamps, and accelerometer readings. */
     Trajectory trajectory;

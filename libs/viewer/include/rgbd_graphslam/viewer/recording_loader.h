@@ -1,5 +1,6 @@
 /** What the viewer needs of the recording, read while the window is already open. */
 #pragma once
+#include <memory>
 #include <mutex>
 #include <opencv2/core/mat.hpp>
 #include <optional>
@@ -10,7 +11,7 @@
 
 #include "rgbd_graphslam/geometry/camera.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
-#include "rgbd_graphslam/mapping/keyframe_reader.h"
+#include "rgbd_graphslam/mapping/keyframe_images.h"
 #include "rgbd_graphslam/viewer/vertex.h"
 
 namespace rgbd_graphslam {
@@ -26,7 +27,7 @@ struct KeyframePicture {
 class RecordingLoader {
   public:
     /** \param keyframes whose images are wanted */
-    RecordingLoader(RecordedCamera camera, Trajectory keyframes);
+    RecordingLoader(std::unique_ptr<const KeyframeImages> images, Trajectory keyframes);
     ~RecordingLoader();
 
     struct News {
@@ -41,7 +42,7 @@ class RecordingLoader {
     void read();
     void readPictures();
 
-    const RecordedCamera camera_;
+    const std::unique_ptr<const KeyframeImages> images_;
     const Trajectory keyframes_;
     std::mutex mutex_;
     News news_;

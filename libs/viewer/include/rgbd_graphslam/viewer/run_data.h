@@ -7,6 +7,7 @@
 
 #include "rgbd_graphslam/geometry/ply.h"
 #include "rgbd_graphslam/geometry/trajectory.h"
+#include "rgbd_graphslam/mapping/frame_entries.h"
 #include "rgbd_graphslam/mapping/point_fusion.h"
 #include "rgbd_graphslam/viewer/vertex.h"
 
@@ -49,6 +50,7 @@ struct RunData {
     std::string folder;
     std::string rawlog;        // empty when it is gone
     std::string sensor_label;  // of the camera, as MapInputs::sensor_label
+    FrameEntries entries;      // as MapInputs::entries
     /** Neither an accelerometer nor a floor has said which way is up. */
     bool up_is_guessed = false;
     Trajectory trajectory, keyframes, keyframes_before_loops;
