@@ -98,8 +98,9 @@ int main(int argc, char** argv) {
             arguments.destination.empty() ? arguments.folder : arguments.destination;
         MapInputs inputs = readRunFolder(arguments.folder, arguments.rawlog);
         if (arguments.upright) inputs = transformed(T_gravity_world(inputs, options), inputs);
-        const MapSummary summary = writeMaps(inputs, options, folder);
         const SemanticOptions semantics = semanticOptionsOf(arguments);
+        inputs.moving_classes = semantics.moving_classes;
+        const MapSummary summary = writeMaps(inputs, options, folder);
         if (!semantics.model.empty() || hasLabels(arguments.folder)) {
             writeSemanticMaps(inputs, options, semantics, folder);
         }

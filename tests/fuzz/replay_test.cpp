@@ -20,13 +20,20 @@ constexpr std::size_t places = 60;  // of each file, evenly spread
 
 class FuzzReplay : public testing::TestWithParam<NamedTarget> {};
 
-std::vector<std::string> seedsOf(const std::string& target) {
-    const fs::path corpus = fs::path(RGBD_SOURCE_DIR) / "tests/fuzz/corpus" / target;
-    if (!fs::exists(corpus)) return binarySeeds(target);
-    std::vector<std::string> seeds;
-    for (const auto& file : fs::directory_iterator(corpus)) {
-        seeds.push_back(readText(file.path().string()));
+void addFilesOf(const fs::path& folder, std::vector<std::string>& texts) {
+    if (!fs::exists(folder)) return;
+    for (const auto& file : fs::directory_iterator(folder)) {
+        texts.push_back(readText(file.path().string()));
     }
+}
+
+/** The corpus, or what is made where there is none, and what fuzzing has found. */
+std::vector<std::string> seedsOf(const std::string& target) {
+    const fs::path fuzz = fs::path(RGBD_SOURCE_DIR) / "tests/fuzz";
+    std::vector<std::string> seeds;
+    addFilesOf(fuzz / "corpus" / target, seeds);
+    if (seeds.empty()) seeds = binarySeeds(target);
+    addFilesOf(fuzz / "found" / target, seeds);
     std::sort(seeds.begin(), seeds.end());  // a folder has no order of its own
     return seeds;
 }

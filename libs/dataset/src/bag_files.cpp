@@ -88,9 +88,20 @@ std::unique_ptr<MessageSource> sourceOf(const std::string& file) {
     return std::make_unique<Ros1Bag>(file);
 }
 
+/** Unpacks a message that the recorder of ROS 2 packed by itself. */
+void useUnpacked(const RecordedMessage& message, double share, const UseMessage& use) {
+    if (message.format == WireFormat::Ros1 || !isZstandard(message.bytes)) {
+        return use(message, share);
+    }
+    const std::string bytes = unpackedBytes(message.bytes, 0);
+    RecordedMessage unpacked = message;
+    unpacked.bytes = bytes;
+    use(unpacked, share);
+}
+
 void useWhole(const RecordedMessage& message, double share, const UseMessage& use) {
     try {
-        use(message, share);
+        useUnpacked(message, share, use);
     } catch (const std::out_of_range& e) {
         throw Error("a message of '" + message.topic + "' (" + message.type + ") is not whole (" +
                         e.what() + ")",
@@ -157,13 +168,7 @@ std::string BagFiles::forEachMessage(const UseMessage& use) {
         const auto use_one = [&](const RecordedMessage& message, double share) {
             const double of_all =
                 (static_cast<double>(i) + share) / static_cast<double>(files_.size());
-            if (message.format == WireFormat::Ros1 || !isZstandard(message.bytes)) {
-                return useWhole(message, of_all, use);
-            }
-            RecordedMessage unpacked = message;
-            const std::string bytes = unpackedBytes(message.bytes, 0);
-            unpacked.bytes = bytes;
-            useWhole(unpacked, of_all, use);
+            useWhole(message, of_all, use);
         };
         const std::string problem = files_[i]->forEachMessage(use_one);
         if (problem.empty()) continue;

@@ -39,6 +39,7 @@ MapInputs mapInputs(const RunState& run) {
     inputs.rawlog = run.job.rawlog;
     inputs.sensor_label = run.job.sensor_label;
     inputs.entries = run.entries;
+    inputs.moving_classes = run.job.options.semantics.moving_classes;
     inputs.earlier = run.report.earlier;
     inputs.trajectory = run.located();
     inputs.unplaced_s = run.unplaced();

@@ -5,6 +5,7 @@
 #include <octomap/OcTree.h>
 
 #include <filesystem>
+#include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <optional>
 
@@ -16,6 +17,7 @@
 #include "rgbd_graphslam/mapping/depth_timing.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 #include "rgbd_graphslam/mapping/map_scene.h"
+#include "rgbd_graphslam/mapping/masked_images.h"
 #include "rgbd_graphslam/mapping/moving_filter.h"
 #include "rgbd_graphslam/mapping/perspective_view.h"
 #include "rgbd_graphslam/mapping/plan_view.h"
@@ -74,10 +76,17 @@ struct Maps {
 
 /** The images of a session with the poses of those of its frames that are looked at. */
 struct Recording {
-    RecordedImages images;
+    std::unique_ptr<KeyframeImages> images;
     Trajectory keyframes, sights;
     bool is_earlier;
 };
+
+std::unique_ptr<KeyframeImages> imagesOf(const RecordedCamera& camera,
+                                         const std::string& moving_classes) {
+    auto images = std::make_unique<RecordedImages>(camera);
+    if (moving_classes.empty()) return images;
+    return std::make_unique<MaskedImages>(std::move(images), camera.sensor_label, moving_classes);
+}
 
 /** In order of the sessions. */
 std::vector<Recording> recordingsOf(const MapInputs& inputs) {
@@ -86,14 +95,15 @@ std::vector<Recording> recordingsOf(const MapInputs& inputs) {
     for (const EarlierSession& session : inputs.earlier) {
         const Trajectory keyframes(begin, begin + static_cast<std::ptrdiff_t>(session.keyframes));
         begin += static_cast<std::ptrdiff_t>(session.keyframes);
-        recordings.push_back(
-            {RecordedImages({session.rawlog, session.sensor_label, session.entries}), keyframes,
-             keyframes, true});
+        recordings.push_back({imagesOf({session.rawlog, session.sensor_label, session.entries},
+                                       inputs.moving_classes),
+                              keyframes, keyframes, true});
     }
-    recordings.push_back({RecordedImages({inputs.rawlog, inputs.sensor_label, inputs.entries}),
-                          {begin, inputs.keyframes.end()},
-                          sightsOf(inputs),
-                          false});
+    recordings.push_back(
+        {imagesOf({inputs.rawlog, inputs.sensor_label, inputs.entries}, inputs.moving_classes),
+         {begin, inputs.keyframes.end()},
+         sightsOf(inputs),
+         false});
     return recordings;
 }
 
@@ -102,10 +112,10 @@ void addSights(Maps& maps, const MapInputs& inputs, const std::vector<Recording>
     for (std::size_t i = 0; i < recordings.size(); ++i) {
         if (recordings[i].sights.empty()) continue;
         try {
-            recordings[i].images.forEach(recordings[i].sights, "free space",
-                                         [&](const Keyframe3D& frame) {
-                                             maps.addSight(frame, inputs, static_cast<int>(i));
-                                         });
+            recordings[i].images->forEach(recordings[i].sights, "free space",
+                                          [&](const Keyframe3D& frame) {
+                                              maps.addSight(frame, inputs, static_cast<int>(i));
+                                          });
         } catch (const Error& e) {
             sayDetail(std::string("not all frames tell of free space: ") + e.what());
         }
@@ -123,7 +133,7 @@ std::size_t addSessions(Maps& maps, const MapInputs& inputs, const MapOptions& o
             const Trajectory& way =
                 recordings[i].is_earlier ? recordings[i].keyframes : inputs.trajectory;
             std::optional<SE3> T_base_cam;
-            added += recordings[i].images.forEach(
+            added += recordings[i].images->forEach(
                 recordings[i].keyframes, "mapping",
                 [&](const Keyframe3D& keyframe) {
                     maps.add(keyframe, inputs, options, static_cast<int>(i));

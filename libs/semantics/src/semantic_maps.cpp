@@ -12,8 +12,9 @@
 #include "rgbd_graphslam/core/console.h"
 #include "rgbd_graphslam/core/error.h"
 #include "rgbd_graphslam/dataset/label_observation.h"
-#include "rgbd_graphslam/mapping/keyframe_reader.h"
+#include "rgbd_graphslam/mapping/depth_timing.h"
 #include "rgbd_graphslam/mapping/plan_view.h"
+#include "rgbd_graphslam/mapping/recorded_images.h"
 #include "rgbd_graphslam/semantics/segmentation_network.h"
 #include "semantic_files.h"
 
@@ -96,16 +97,18 @@ LabeledMap labeledMap(const MapInputs& inputs, const MapOptions& maps,
                       const SemanticOptions& options) {
     LabeledMap map(options.label_voxel_m);
     LabelSource labels(options, inputs.sensor_label);
-    forEachKeyframe(
-        {inputs.rawlog, inputs.sensor_label}, framesToLabel(inputs, options), "labels",
-        [&](const Keyframe3D& keyframe) {
-            cv::Mat seen = labels.of(keyframe);
-            for (const int moving : labelsNamed(labels.names(), options.moving_classes)) {
-                seen.setTo(0, seen == moving);
-            }
-            if (seen.size() == keyframe.image.depth.size()) map.add(keyframe, seen, inputs, maps);
-        },
-        [&](const mrpt::obs::CObservation& entry) { labels.note(entry); });
+    RecordedImages({inputs.rawlog, inputs.sensor_label, inputs.entries})
+        .forEach(
+            framesToLabel(inputs, options), "labels",
+            [&](const Keyframe3D& keyframe) {
+                cv::Mat seen = labels.of(keyframe);
+                for (const int moving : labelsNamed(labels.names(), options.moving_classes)) {
+                    seen.setTo(0, seen == moving);
+                }
+                if (seen.size() == keyframe.image.depth.size())
+                    map.add(keyframe, seen, inputs, maps);
+            },
+            [&](const mrpt::obs::CObservation& entry) { labels.note(entry); });
     map.names = labels.names();
     return map;
 }

@@ -1,6 +1,7 @@
 /** The stores that maps take keyframe images from. */
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <mrpt/obs/CObservationComment.h>
 #include <mrpt/obs/CObservationIMU.h>
 #include <unistd.h>
 
@@ -10,10 +11,12 @@
 #include "../../support/problem_of.h"
 #include "rgbd_graphslam/core/atomic_file.h"
 #include "rgbd_graphslam/core/console.h"
+#include "rgbd_graphslam/dataset/label_observation.h"
 #include "rgbd_graphslam/dataset/mrpt_conversions.h"
 #include "rgbd_graphslam/dataset/rawlog_writer.h"
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/mapping/image_spool.h"
+#include "rgbd_graphslam/mapping/masked_images.h"
 #include "rgbd_graphslam/mapping/packed_images.h"
 #include "rgbd_graphslam/mapping/recorded_images.h"
 
@@ -36,9 +39,8 @@ RgbdImage imageOf(int frame) {
     return image;
 }
 
-CameraSetup setupOf(const std::string& label) {
+CameraSetup smallCamera() {
     CameraSetup setup;
-    setup.sensor_label = label;
     setup.camera.width = 8;
     setup.camera.height = 6;
     setup.camera.fx = setup.camera.fy = 8;
@@ -49,7 +51,8 @@ CameraSetup setupOf(const std::string& label) {
 
 mrpt::obs::CObservation3DRangeScan::Ptr frameOf(int frame, const std::string& label = "CAMERA") {
     const RgbdImage image = imageOf(frame);
-    const auto observation = makeRgbdObservation(setupOf(label), image.stamp_s);
+    const auto observation = makeRgbdObservation(smallCamera(), image.stamp_s);
+    observation->sensorLabel = label;
     setColor(*observation, image.color);
     setDepth(*observation, image.depth);
     return observation;
@@ -134,7 +137,7 @@ TEST_F(KeyframeImagesTest, entriesOfAnotherRecordingGiveNoImages) {
 }
 
 TEST_F(KeyframeImagesTest, memoryGivesBackEveryPixelOfWhatWasNotDropped) {
-    PackedImages images{Camera(setupOf("").camera)};
+    PackedImages images{Camera(smallCamera().camera)};
     for (int i = 0; i < frames; ++i) images.add(imageOf(i));
     images.drop(stampOf(2));
     EXPECT_TRUE(images.has(stampOf(1)));
@@ -177,6 +180,31 @@ TEST_F(KeyframeImagesTest, spoolThatCannotBeWrittenSaysSo) {
     ImageSpool spool(rawlog_);
     spool.add(frameOf(0));
     EXPECT_THAT(problemOf([&] { spool.finish(); }), testing::HasSubstr("walk.rawlog"));
+}
+
+TEST_F(KeyframeImagesTest, maskedClassesHaveNoDepth) {
+    writeRawlog(rawlog_, RawlogStorage::Embedded, [&](RawlogWriter& writer) {
+        mrpt::obs::CObservationComment names;
+        names.text = toComment({{1, {"wall", {}}}, {2, {"person", {}}}});
+        writer.write(names);
+        for (int i = 0; i < frames; ++i) {
+            cv::Mat1w labels(6, 8, std::uint16_t{1});
+            labels.row(i) = 2;
+            for (const auto& image : makeLabelObservations("CAMERA", stampOf(i), labels))
+                writer.write(*image);
+            writer.write(*frameOf(i));
+        }
+    });
+    const MaskedImages images(std::make_unique<RecordedImages>(RecordedCamera(rawlog_)), "",
+                              "dog person");
+    int seen = 0;
+    images.forEach(posesOf({0, 1, 2, 3}), "test", [&](const Keyframe3D& keyframe) {
+        const auto i = static_cast<int>(keyframe.index);
+        EXPECT_EQ(cv::countNonZero(keyframe.image.depth), 5 * 8);
+        EXPECT_EQ(cv::countNonZero(keyframe.image.depth.row(i)), 0);
+        ++seen;
+    });
+    EXPECT_EQ(seen, frames);
 }
 
 TEST_F(KeyframeImagesTest, listsOfEntriesAreReadAsTheyAreWritten) {

@@ -33,9 +33,9 @@
 #include "rgbd_graphslam/dataset/rgbd_observation.h"
 #include "rgbd_graphslam/geometry/ply.h"
 #include "rgbd_graphslam/mapping/depth_timing.h"
-#include "rgbd_graphslam/mapping/recorded_images.h"
 #include "rgbd_graphslam/mapping/map_files.h"
 #include "rgbd_graphslam/mapping/map_scene.h"
+#include "rgbd_graphslam/mapping/recorded_images.h"
 #include "rgbd_graphslam/mapping/run_folder.h"
 #include "rgbd_graphslam/mapping/scan_rawlog.h"
 
@@ -248,25 +248,26 @@ TEST_F(MapBuilder, depthIsPlacedWhereTheCameraWasWhenItWasTaken) {
     const SE3 T_other_world(rotationExp({0.1, 0.2, 0.3}), {1, 2, 3});
     const Trajectory other = transformed(T_other_world, inputs_).trajectory;
     std::size_t late = 0;
-    RecordedImages({inputs_.rawlog}).forEach(inputs_.keyframes, "reading", [&](const Keyframe3D& keyframe) {
-        const SE3& T = keyframe.pose.T_world_cam;
-        const double delay_s = keyframe.depth_stamp_s - keyframe.pose.stamp_s;
-        if (keyframe.index != 3) {
-            EXPECT_EQ(delay_s, 0);
-            EXPECT_LT((depthPose(keyframe.pose, keyframe.depth_stamp_s, other).t - T.t).norm(),
-                      1e-9);
-            return;
-        }
-        ++late;
-        EXPECT_NEAR(delay_s, late_s, 1e-6);
-        const SE3 expected = interpolate(T, inputs_.keyframes[4].T_world_cam, late_s / 0.1);
-        for (const Trajectory& trajectory : {inputs_.trajectory, other}) {
-            const SE3 found = depthPose(keyframe.pose, keyframe.depth_stamp_s, trajectory);
-            EXPECT_LT((found.t - expected.t).norm(), 1e-5);
-            EXPECT_LT((found.R - expected.R).norm(), 1e-5);
-        }
-        EXPECT_EQ(depthPose(keyframe.pose, keyframe.depth_stamp_s, {}).t, T.t);
-    });
+    RecordedImages(RecordedCamera(inputs_.rawlog))
+        .forEach(inputs_.keyframes, "reading", [&](const Keyframe3D& keyframe) {
+            const SE3& T = keyframe.pose.T_world_cam;
+            const double delay_s = keyframe.depth_stamp_s - keyframe.pose.stamp_s;
+            if (keyframe.index != 3) {
+                EXPECT_EQ(delay_s, 0);
+                EXPECT_LT((depthPose(keyframe.pose, keyframe.depth_stamp_s, other).t - T.t).norm(),
+                          1e-9);
+                return;
+            }
+            ++late;
+            EXPECT_NEAR(delay_s, late_s, 1e-6);
+            const SE3 expected = interpolate(T, inputs_.keyframes[4].T_world_cam, late_s / 0.1);
+            for (const Trajectory& trajectory : {inputs_.trajectory, other}) {
+                const SE3 found = depthPose(keyframe.pose, keyframe.depth_stamp_s, trajectory);
+                EXPECT_LT((found.t - expected.t).norm(), 1e-5);
+                EXPECT_LT((found.R - expected.R).norm(), 1e-5);
+            }
+            EXPECT_EQ(depthPose(keyframe.pose, keyframe.depth_stamp_s, {}).t, T.t);
+        });
     EXPECT_EQ(late, 1u);
 }
 

@@ -39,6 +39,9 @@ struct MapInputs {
     std::vector<EarlierSession> earlier;
     /** Keyframes, by rising index, whose place relative to the others is unknown. */
     std::vector<int> disconnected;
+    /** Names, separated by spaces, of classes in the recordings' label images that are no part of
+     *  the maps: see MaskedImages. */
+    std::string moving_classes;
     /** z is hardly up: pictures cut no ceiling off. */
     bool up_is_guessed = false;
 };
