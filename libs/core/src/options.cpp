@@ -261,7 +261,9 @@ IniFile IniFile::fromText(const std::string& text, const std::string& name) {
     for (const auto& [path, origin] : origins) {
         const auto dot = path.find('.');
         const std::string section = path.substr(0, dot), key = path.substr(dot + 1);
-        ini.sections_[section][key] = {trimmed(mrpt_ini.read_string(section, key, "")), origin};
+        std::string value = trimmed(mrpt_ini.read_string(section, key, ""));
+        if (value.rfind("//", 0) == 0) value.clear();  // MRPT takes it for the value of an empty key
+        ini.sections_[section][key] = {value, origin};
     }
     return ini;
 }

@@ -74,6 +74,22 @@ TEST(IniFile, readsEveryKindOfValueAndComment) {
     EXPECT_EQ(options.mode, "far");
 }
 
+struct TextOptions : Options {
+    std::string words = "wall floor";
+    const char* section() const override { return "TextOptions"; }
+    const char* about() const override { return "For the test"; }
+    void describe(OptionVisitor& v) override { v.choice("words", words, {}, "Any words"); }
+};
+
+TEST(IniFile, aTextMayHaveSeveralWordsOrNone) {
+    for (const char* words : {"", "person", "dining table // no", "a;b"}) {
+        TextOptions written, read;
+        written.words = words;
+        IniFile::fromText(toIniText({&written}), "a.ini").load({&read});
+        EXPECT_EQ(read.words, std::string(words).substr(0, std::string(words).find(" //")));
+    }
+}
+
 TEST(IniFile, printedTextReadsBackToTheSameValues) {
     SampleOptions written, read;
     written.size_m = 1.0 / 3;
