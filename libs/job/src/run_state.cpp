@@ -97,7 +97,8 @@ void RunState::noteKeyframe(int keyframe) {
 }
 
 void RunState::noteEntry(const StreamedFrame& frame) {
-    if (frame.camera == 0)
+    // The record of a live run has entries of its own, and others between.
+    if (frame.camera == 0 && !job.live)
         entries.push_back({toSeconds(frame.observation->timestamp), frame.entry});
 }
 

@@ -10,6 +10,8 @@
 namespace rgbd_graphslam {
 namespace {
 
+constexpr std::size_t most_sessions = 10000;
+
 struct Line {
     std::size_t session = 0;
     FrameEntry frame;
@@ -27,7 +29,8 @@ std::optional<Line> parsed(const std::string& text) {
 /** \return false where the line is out of order */
 bool append(const Line& line, std::vector<FrameEntries>& sessions) {
     const std::size_t last = sessions.empty() ? 0 : sessions.size() - 1;
-    if (line.session < last || line.session > last + 1) return false;
+    // Sessions of earlier versions and live ones have no entries.
+    if (line.session < last || line.session > most_sessions) return false;
     sessions.resize(line.session + 1);
     FrameEntries& frames = sessions.back();
     const FrameEntry& frame = line.frame;

@@ -217,7 +217,9 @@ TEST_F(KeyframeImagesTest, listsOfEntriesAreReadAsTheyAreWritten) {
     EXPECT_EQ(entryAt(read[0], 1.5), 7u);
     EXPECT_EQ(entryAt(read[0], 1.4), std::nullopt);
     EXPECT_EQ(entryAt(read[1], 0.5000004), 0u);
-    for (const char* line : {"x", "0,1.5", "0,1.5,2,3", "2,1.5,2"}) {
+    writeTextAtomically(path, frameEntriesCsv({{}, {}, {{0.5, 8}}}));
+    EXPECT_EQ(entryAt(readFrameEntries(path).at(2), 0.5), 8u) << "behind sessions without entries";
+    for (const char* line : {"x", "0,1.5", "0,1.5,2,3", "20000,1.5,2"}) {
         writeTextAtomically(path, std::string("session,stamp_s,entry\n") + line + "\n");
         EXPECT_THAT(problemOf([&] { readFrameEntries(path); }), testing::HasSubstr("csv:2"))
             << line;
