@@ -101,6 +101,7 @@ int main(int argc, char** argv) {
         const SemanticOptions semantics = semanticOptionsOf(arguments);
         inputs.moving_classes = semantics.moving_classes;
         const MapSummary summary = writeMaps(inputs, options, folder);
+        removeSemanticMaps(folder);
         if (!semantics.model.empty() || hasLabels(arguments.folder)) {
             writeSemanticMaps(inputs, options, semantics, folder);
         }

@@ -79,6 +79,39 @@ void declareSensorErrors(CLI::App& app, synth::FilmOptions& options) {
                    "Relative error of the wheel radius that the odometry assumes");
 }
 
+/** What is wrong with the camera, or another place for it. */
+void declareCameraErrors(CLI::App& app, synth::FilmOptions& options, double& readout_ms,
+                         std::vector<double>& mount) {
+    app.add_option("--registration-error", options.registration_error_px,
+                   "Shift of depth relative to color [px]")
+        ->check(finite());
+    app.add_option("--readout", readout_ms,
+                   "Rolling shutter: time between reading the first and the last row [ms]")
+        ->check(notNegative())
+        ->type_name("MS");
+    app.add_option(
+           "--mount", mount,
+           "Render another camera of the same rig, at this pose relative to the first: x y z "
+           "[m] yaw pitch roll [deg], x forward")
+        ->expected(6)
+        ->check(finite())
+        ->type_name("X Y Z YAW PITCH ROLL");
+}
+
+/** What is filmed besides, and what is left out. */
+void declareContents(CLI::App& app, synth::FilmOptions& options, std::vector<double>& blackouts) {
+    app.add_flag("--labels", options.labels,
+                 "label/ and labels.ini: images of the class that each pixel shows");
+    app.add_flag("--scanner", options.scanner,
+                 "planar robots: scans.txt of a 2-D laser scanner, 270 degrees, 40 Hz");
+    app.add_flag_callback(
+        "--without-movers", [&options] { options.movers = false; },
+        "Render the same sequence without what deceives the camera: movers, arm, dirt, flare, "
+        "blackouts");
+    app.add_option("--blackout", blackouts, "Cover the camera for this long [s]; may be repeated")
+        ->type_name("FROM SECONDS");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -113,34 +146,12 @@ int main(int argc, char** argv) {
                    {"stereo", synth::FilmCamera::Stereo}},
                   "pinhole with depth, the same with a lens of this model, or two pinholes");
     declareNumber(app, "--baseline", options.baseline_m, "of the stereo camera, m", positive());
-    app.add_option("--registration-error", options.registration_error_px,
-                   "Shift of depth relative to color [px]")
-        ->check(finite());
-    app.add_option("--readout", readout_ms,
-                   "Rolling shutter: time between reading the first and the last row [ms]")
-        ->check(notNegative())
-        ->type_name("MS");
-    app.add_option(
-           "--mount", mount,
-           "Render another camera of the same rig, at this pose relative to the first: x y z "
-           "[m] yaw pitch roll [deg], x forward")
-        ->expected(6)
-        ->check(finite())
-        ->type_name("X Y Z YAW PITCH ROLL");
+    declareCameraErrors(app, options, readout_ms, mount);
     app.add_option("--contact-sheet", sheet,
                    "PICTURE DIR...: show rendered sequences in one picture and exit");
     app.add_option("--session", options.session, "Session, for scenarios with several")
         ->capture_default_str();
-    app.add_flag("--labels", options.labels,
-                 "label/ and labels.ini: images of the class that each pixel shows");
-    app.add_flag("--scanner", options.scanner,
-                 "planar robots: scans.txt of a 2-D laser scanner, 270 degrees, 40 Hz");
-    app.add_flag_callback(
-        "--without-movers", [&] { options.movers = false; },
-        "Render the same sequence without what deceives the camera: movers, arm, dirt, flare, "
-        "blackouts");
-    app.add_option("--blackout", blackouts, "Cover the camera for this long [s]; may be repeated")
-        ->type_name("FROM SECONDS");
+    declareContents(app, options, blackouts);
     declareSensorErrors(app, options);
     declareExamples(app,
                     {"rgbd-synth --list", "rgbd-synth office office --frames 100 --size 320x240"});

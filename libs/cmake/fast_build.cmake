@@ -6,17 +6,17 @@ option(RGBD_FAST_BUILD "Compile several sources at a time" OFF)
 # These share local names with other sources of their library and are compiled by themselves. A file
 # that is refused with this option ("redefinition of ...") and not without it belongs to them.
 set(rgbd_separate_sources
-    accelerometer_check.cpp board.cpp calibration_job.cpp camera_calibration.cpp camera_file.cpp
-    colmap.cpp depth_calibration.cpp depth_view.cpp distance_volume.cpp drift.cpp fast_detector.cpp
+    accelerometer_check.cpp camera_file.cpp
+    colmap.cpp depth_view.cpp drift.cpp fast_detector.cpp
     floor.cpp framing.cpp free_space.cpp furniture.cpp gyroscope_check.cpp intrinsics_file.cpp
-    kept_frames.cpp keyframe_alignment.cpp keyframe_sheet.cpp lag_check.cpp lens_warp.cpp
-    level_survey.cpp map_accuracy.cpp map_adjustment.cpp mcap_file.cpp motion.cpp navigation_map.cpp
+    keyframe_alignment.cpp keyframe_sheet.cpp lag_check.cpp lens_warp.cpp
+    map_accuracy.cpp map_adjustment.cpp mcap_file.cpp motion.cpp navigation_map.cpp
     nerfstudio.cpp numbered_files.cpp octree_builder.cpp orb_extractor.cpp panel_set.cpp
     picture_marks.cpp places.cpp plot_curve.cpp replay.cpp rgbd_observation.cpp rolling_shutter.cpp
-    ros_images.cpp rpe.cpp scenario.cpp scenario_board.cpp scene_overlay.cpp sensor_watch.cpp
+    ros_images.cpp rpe.cpp scenario.cpp scene_overlay.cpp sensor_watch.cpp
     sequence_archive.cpp signed_axes.cpp stereo_depth.cpp stereo_frame.cpp stereo_matcher.cpp
-    stereo_rectifier.cpp surface_nets.cpp surface_spread.cpp textured_mesh.cpp weak_tracker.cpp
-    calibration_test.cpp camera_file_test.cpp camera_properties_test.cpp cpu_budget_test.cpp
+    stereo_rectifier.cpp surface_nets.cpp surface_spread.cpp textured_mesh.cpp
+    camera_file_test.cpp camera_properties_test.cpp cpu_budget_test.cpp
     drive_test.cpp folders_test.cpp framing_test.cpp graph_slam_session_test.cpp list_forms_test.cpp
     live_run_test.cpp marked_picture_test.cpp mesh_test.cpp mouse_gesture_test.cpp
     occupancy_volume_test.cpp picking_test.cpp pose_graph_test.cpp replay_clock_test.cpp

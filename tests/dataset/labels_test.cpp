@@ -159,6 +159,11 @@ TEST(Labels, aNetworkLabelsKeyframes) {
     EXPECT_GT(counts[1], labels.size() / 20);
     EXPECT_GT(counts[2], labels.size() / 20);
     EXPECT_EQ(json::parse(std::ifstream(run + "/objects.json"))["classes"]["2"], "bright");
+
+    mapped(film, folder / "run");
+    if (HasFatalFailure()) return;
+    for (const char* name : {"labels.ply", "labels.png", "objects.json"})
+        EXPECT_FALSE(fs::exists(run + "/" + name)) << name << " of the run before";
 }
 
 }  // namespace

@@ -160,6 +160,7 @@ void writeMap(RunState& run) {
         const MapSummary maps = writeMaps(upright, run.job.options.maps, run.job.out_folder);
         if (maps.scans > 0) noteLasersAsUsed(run.report);
         const bool has_model = !run.job.options.semantics.model.empty();
+        removeSemanticMaps(run.job.out_folder);
         if (has_model || hasLabels(run.report.sensors)) writeLabels(run, upright);
     }
     run.report.maps_wall_s = 1e-3 * clock.wallMs();

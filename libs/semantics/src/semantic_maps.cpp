@@ -134,12 +134,12 @@ ObjectViews viewsOf(const FoundObjects& objects, const std::vector<LabeledView>&
     return result;
 }
 
-void removeOldFiles(const std::string& folder) {
+}  // namespace
+
+void removeSemanticMaps(const std::string& folder) {
     std::error_code ignored;
     for (const char* name : file_names) std::filesystem::remove(folder + "/" + name, ignored);
 }
-
-}  // namespace
 
 bool hasLabels(const std::string& run_folder) {
     std::ifstream in(run_folder + "/summary.json");
@@ -156,7 +156,7 @@ SemanticSummary writeSemanticMaps(const MapInputs& inputs, const MapOptions& map
     const MapInputs connected = withoutDisconnected(inputs);
     const LabeledMap map = labeledMap(connected, maps, options);
     if (map.views.empty()) {
-        removeOldFiles(out_folder);
+        removeSemanticMaps(out_folder);
         return {};
     }
     const FoundObjects objects = findObjects(map.fusion, map.names, options);

@@ -16,6 +16,10 @@ struct SemanticSummary {
 /** Whether the recording of a finished run has label images, by its summary.json. */
 bool hasLabels(const std::string& run_folder);
 
+/** Removes what writeSemanticMaps() wrote into a folder: beside maps of another run it would pass for
+ *  theirs. */
+void removeSemanticMaps(const std::string& folder);
+
 /** Writes labels.ply (points with class, confidence and number of views), labels.png (the map from
  *  above, colored by class) and objects.json, if the rawlog has label images.
  *  \param inputs upright
